@@ -1,0 +1,38 @@
+// One compilation of this file per instruction set, and one in double for the reference (docs/building.md).
+
+#include "render/kernels/render_tile.hpp"
+#include "render/kernels/stream.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+namespace {
+
+#if LANECAST_REFERENCE
+using Float = double;
+#elif LANECAST_VECTOR
+using Float = VectorFloat;
+#else
+using Float = float;
+#endif
+
+std::uint64_t scratch_bytes(const RenderJob& job) noexcept {
+    TileScratch<Float> scratch;
+    ScratchLayout layout(nullptr);
+    scratch.allocate(layout, job);
+    return layout.used();
+}
+
+TileStats render(const RenderJob& job, Tile tile, void* scratch) noexcept { return render_tile<Float>(job, tile, scratch); }
+
+void closest_hit(const SceneView& scene, const RayStream& rays) noexcept { trace_stream<Query::closest, Float>(scene, rays); }
+
+void any_hit(const SceneView& scene, const RayStream& rays) noexcept { trace_stream<Query::any, Float>(scene, rays); }
+
+} // namespace
+
+extern constinit const KernelTable kernel_table;
+constinit const KernelTable kernel_table{
+    LANECAST_ISA_NAME, width<Float>, LANECAST_REFERENCE, scratch_bytes, render, closest_hit, any_hit,
+};
+
+} // namespace lanecast::inline LANECAST_ISA
