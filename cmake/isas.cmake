@@ -27,19 +27,15 @@ else()
   endif()
 endif()
 
-# Flags of the kernels: always optimised, never link-time optimised (it would merge code across ISAs), no exceptions; a double
-# in float code is an error but in `reference`.
-function(lanecast_kernel_flags target isa)
+# Compiles `target` as its kernels are: for one ISA, always optimised, never link-time optimised (it would merge code across
+# ISAs).
+function(lanecast_isa_flags target isa)
   set(flags ${lanecast_isa_${isa}})
   list(REMOVE_AT flags 0 1)
   target_link_libraries(${target} PRIVATE lanecast_flags)
   target_compile_definitions(${target} PRIVATE LANECAST_ISA=${isa})
   target_compile_options(${target} PRIVATE
-    ${flags} -fno-lto -fno-exceptions -fno-rtti
-    $<IF:$<CONFIG:Debug>,-Og,$<IF:$<BOOL:${LANECAST_SANITIZE}>,-O1,-O3>>)
-  if(NOT isa STREQUAL "reference")
-    target_compile_options(${target} PRIVATE -Wdouble-promotion)
-  endif()
+    ${flags} -fno-lto $<IF:$<CONFIG:Debug>,-Og,$<IF:$<BOOL:${LANECAST_SANITIZE}>,-O1,-O3>>)
   set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
 endfunction()
 
@@ -55,7 +51,10 @@ function(lanecast_add_kernels library source)
       string(JOIN _ target lanecast_kernels ${isa} ${features})
       add_library(${target} OBJECT ${source})
       target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-      lanecast_kernel_flags(${target} ${isa})
+      lanecast_isa_flags(${target} ${isa})
+      # A double in float code is a slip, but for `reference`, which is written in double.
+      target_compile_options(${target} PRIVATE
+        -fno-exceptions -fno-rtti $<$<NOT:$<STREQUAL:${isa},reference>>:-Wdouble-promotion>)
       if(NOT features STREQUAL "")
         target_compile_definitions(${target} PRIVATE LANECAST_FEATURES=${features})
       endif()
@@ -66,7 +65,14 @@ function(lanecast_add_kernels library source)
   endforeach()
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/render/kernel_list.inc CONTENT "${list}" @ONLY)
   target_include_directories(${library} PRIVATE ${CMAKE_BINARY_DIR}/generated)
-  # For tools/check_isa_objects.sh: lines of `<namespace or baseline> <object file>`.
-  string(APPEND manifest "baseline $<JOIN:$<TARGET_OBJECTS:${library}>,\nbaseline >\n")
+  set(lanecast_kernel_objects "${manifest}" PARENT_SCOPE)
+endfunction()
+
+# For tools/check_isa_objects.sh: lines of `<namespace or baseline> <object file>`, of the kernels and the targets named.
+function(lanecast_write_object_list)
+  set(manifest "${lanecast_kernel_objects}")
+  foreach(target IN LISTS ARGN)
+    string(APPEND manifest "baseline $<JOIN:$<TARGET_OBJECTS:${target}>,\nbaseline >\n")
+  endforeach()
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/isa_objects.txt CONTENT "${manifest}")
 endfunction()

@@ -2,15 +2,20 @@
 
 #include "render/kernel_table.hpp"
 
-#include <string_view>
+#include <cstdint>
 
 namespace lanecast::inline LANECAST_ISA {
 namespace {
 
 #define LANECAST_STRING2(x) #x
 #define LANECAST_STRING(x) LANECAST_STRING2(x)
-constexpr std::string_view isa_name = LANECAST_STRING(LANECAST_ISA);
-constexpr std::int32_t isa_width = isa_name == "sse42" ? 4 : isa_name == "avx2" ? 8 : isa_name == "avx512" ? 16 : 1;
+
+constexpr bool is_isa(const char* name) {
+    const char* isa = LANECAST_STRING(LANECAST_ISA);
+    while (*isa && *isa == *name) ++isa, ++name;
+    return *isa == *name;
+}
+constexpr bool is_reference = is_isa("reference");
 
 std::uint64_t scratch_bytes(const RenderJob&) noexcept { return 0; }
 
@@ -30,14 +35,19 @@ void any_hit(const SceneView&, const RayStream& rays) noexcept {
 
 } // namespace
 
-extern constinit const KernelTable kernels = {isa_name == "sse42"       ? "sse4.2"
-                                              : isa_name == "reference" ? "scalar"
-                                                                        : LANECAST_STRING(LANECAST_ISA),
-                                              isa_width,
-                                              isa_name == "reference" ? 1u : 0u,
-                                              scratch_bytes,
-                                              render_tile,
-                                              closest_hit,
-                                              any_hit};
+extern constinit const KernelTable kernels = {
+    is_isa("sse42") ? "sse4.2"
+    : is_reference  ? "scalar"
+                    : LANECAST_STRING(LANECAST_ISA),
+    is_isa("avx512")  ? 16
+    : is_isa("avx2")  ? 8
+    : is_isa("sse42") ? 4
+                      : 1,
+    is_reference ? 1u : 0u,
+    scratch_bytes,
+    render_tile,
+    closest_hit,
+    any_hit,
+};
 
 } // namespace lanecast::inline LANECAST_ISA
