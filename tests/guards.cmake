@@ -16,4 +16,9 @@ if(NOT LANECAST_SANITIZE)
   lanecast_script_test(check_isa_objects tools/check_isa_objects.sh ${CMAKE_BINARY_DIR}/isa_objects.txt)
   lanecast_script_test(check_isa_objects_self_test
     tests/tools/check_isa_objects_test.sh ${CMAKE_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
+  lanecast_script_test(install tests/install/install_test.sh
+    ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR} ${CMAKE_COMMAND} ${CMAKE_CXX_COMPILER})
+  if(LANECAST_QEMU)
+    lanecast_script_test(qemu_nehalem tests/tools/qemu_test.sh ${LANECAST_QEMU} ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
+  endif()
 endif()
