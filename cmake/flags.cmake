@@ -16,5 +16,6 @@ target_compile_options(lanecast_flags INTERFACE
 if(LANECAST_SANITIZE)
   set(sanitize -fsanitize=${LANECAST_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_compile_options(lanecast_flags INTERFACE ${sanitize})
+  target_compile_definitions(lanecast_flags INTERFACE LANECAST_SANITIZED) # tests may run fewer cases
   add_link_options(-fsanitize=${LANECAST_SANITIZE})
 endif()

@@ -27,6 +27,11 @@ else()
   endif()
 endif()
 
+set(lanecast_kernel_level -O3)
+if(LANECAST_SANITIZE)
+  set(lanecast_kernel_level -O1)
+endif()
+
 # Compiles `target` as its kernels are: for one ISA, always optimised, never link-time optimised (it would merge code across
 # ISAs).
 function(lanecast_isa_flags target isa)
@@ -35,7 +40,7 @@ function(lanecast_isa_flags target isa)
   target_link_libraries(${target} PRIVATE lanecast_flags)
   target_compile_definitions(${target} PRIVATE LANECAST_ISA=${isa})
   target_compile_options(${target} PRIVATE
-    ${flags} -fno-lto $<IF:$<CONFIG:Debug>,-Og,$<IF:$<BOOL:${LANECAST_SANITIZE}>,-O1,-O3>>)
+    ${flags} -fno-lto $<IF:$<CONFIG:Debug>,-Og,${lanecast_kernel_level}>)
   set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
 endfunction()
 
