@@ -23,10 +23,15 @@ namespace lanecast::inline LANECAST_ISA {
 
 #if defined(__AVX512F__)
 using Arch = xsimd::avx512bw;
+inline constexpr char isa_name[] = "avx512";
 #elif defined(__AVX2__)
 using Arch = xsimd::avx2;
+inline constexpr char isa_name[] = "avx2";
 #elif defined(__SSE4_2__)
 using Arch = xsimd::sse4_2;
+inline constexpr char isa_name[] = "sse4.2";
+#else
+inline constexpr char isa_name[] = "scalar";
 #endif
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -30,9 +30,7 @@ void any_hit(const SceneView& scene, const RayStream& rays) noexcept { trace_str
 
 } // namespace
 
-extern constinit const KernelTable kernel_table;
-constinit const KernelTable kernel_table{
-    LANECAST_ISA_NAME, width<Float>, LANECAST_REFERENCE, scratch_bytes, render, closest_hit, any_hit,
-};
+extern constinit const KernelTable kernels;
+constinit const KernelTable kernels{isa_name, width<Float>, LANECAST_REFERENCE, scratch_bytes, render, closest_hit, any_hit};
 
 } // namespace lanecast::inline LANECAST_ISA

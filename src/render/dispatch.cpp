@@ -1,0 +1,97 @@
+#include "render/dispatch.hpp"
+
+#include "scene/error.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+// Each namespace of kernels defines its table with constant initialisation, so nothing compiled for another CPU runs here.
+#define LANECAST_KERNELS(isa)                                                                                                    \
+    namespace lanecast::isa {                                                                                                    \
+    extern const KernelTable kernels;                                                                                            \
+    }
+#include "render/kernel_list.inc"
+#undef LANECAST_KERNELS
+
+namespace lanecast {
+namespace {
+
+constexpr const KernelTable* tables[] = {
+#define LANECAST_KERNELS(isa) &isa::kernels,
+#include "render/kernel_list.inc"
+#undef LANECAST_KERNELS
+};
+
+// __builtin_cpu_supports asks XGETBV too: AVX-512 counts only where the operating system saves its registers.
+bool always() { return true; }
+bool has_sse42() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
+bool has_avx2() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("f16c");
+}
+bool has_avx512() {
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
+}
+
+struct KnownIsa {
+    std::string_view name;
+    bool (*supported)();
+};
+// Slowest first.
+constexpr KnownIsa known[] = {{"scalar", always}, {"sse4.2", has_sse42}, {"avx2", has_avx2}, {"avx512", has_avx512}};
+
+const KernelTable* compiled_table(std::string_view isa, Precision precision) {
+    const std::uint32_t reference = precision == Precision::reference ? 1 : 0;
+    const auto* found = std::find_if(std::begin(tables), std::end(tables), [&](const KernelTable* table) {
+        return table->isa == isa && table->reference == reference;
+    });
+    return found == std::end(tables) ? nullptr : *found;
+}
+
+// "scalar, avx2": those one could ask for instead.
+std::string usable_names() {
+    std::string names;
+    for (const IsaInfo& isa : known_isas()) {
+        if (!isa.compiled || !isa.supported) continue;
+        if (!names.empty()) names += ", ";
+        names += isa.name;
+    }
+    return names;
+}
+
+} // namespace
+
+std::vector<IsaInfo> known_isas() {
+    std::vector<IsaInfo> isas;
+    for (const KnownIsa& isa : known) {
+        const KernelTable* table = compiled_table(isa.name, Precision::balanced);
+        isas.push_back({std::string(isa.name), table ? table->width : 0, table != nullptr, isa.supported()});
+    }
+    return isas;
+}
+
+std::string_view best_isa() {
+    const auto best = std::find_if(std::rbegin(known), std::rend(known), [](const KnownIsa& isa) {
+        return compiled_table(isa.name, Precision::balanced) && isa.supported();
+    });
+    return best->name; // scalar at the latest
+}
+
+const KernelTable* find_kernels(std::string_view isa, Precision precision) {
+    if (isa == "auto") isa = precision == Precision::reference ? "scalar" : best_isa();
+    const auto* entry = std::find_if(std::begin(known), std::end(known), [&](const KnownIsa& k) { return k.name == isa; });
+    const std::string quoted = "instruction set '" + std::string(isa) + "'";
+    if (entry == std::end(known)) {
+        throw Error(ExitCode::usage, quoted + " does not exist; expected auto, scalar, sse4.2, avx2 or avx512");
+    }
+    if (!entry->supported()) throw Error(ExitCode::isa, "this CPU lacks " + quoted + "; it can run " + usable_names());
+    const KernelTable* table = compiled_table(isa, precision);
+    if (!table && precision == Precision::reference) {
+        throw Error(ExitCode::isa, "precision 'reference' is computed by 'scalar' only, not by " + quoted);
+    }
+    if (!table) throw Error(ExitCode::isa, "this build lacks " + quoted + "; it holds " + usable_names());
+    return table;
+}
+
+} // namespace lanecast

@@ -1,0 +1,86 @@
+#include "render/dispatch.hpp"
+#include "scene/error.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <string>
+
+using namespace lanecast;
+
+namespace {
+
+ExitCode code_of(std::string_view isa, Precision precision) {
+    try {
+        (void)find_kernels(isa, precision);
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()).find("'" + std::string(isa) + "'") != std::string::npos);
+        return error.code();
+    }
+    return ExitCode::done;
+}
+
+} // namespace
+
+TEST_CASE("every instruction set is found where build and CPU have it, and is an error elsewhere") {
+    const int widths[] = {1, 4, 8, 16};
+    const std::vector<IsaInfo> isas = known_isas();
+    REQUIRE(isas.size() == 4);
+    for (std::size_t i = 0; i < isas.size(); ++i) {
+        const IsaInfo& isa = isas[i];
+        CAPTURE(isa.name);
+        CHECK(isa.width == (isa.compiled ? widths[i] : 0));
+        if (isa.compiled && isa.supported) {
+            const KernelTable* table = find_kernels(isa.name, Precision::balanced);
+            CHECK(table->isa == isa.name);
+            CHECK(table->width == isa.width);
+            CHECK(table->reference == 0);
+        } else {
+            CHECK(code_of(isa.name, Precision::balanced) == ExitCode::isa);
+        }
+    }
+    CHECK(isas[0].compiled);
+    CHECK(isas[0].supported);
+}
+
+TEST_CASE("auto is the fastest that can run") {
+    const std::vector<IsaInfo> isas = known_isas();
+    const auto best = std::find_if(isas.rbegin(), isas.rend(), [](const IsaInfo& isa) { return isa.compiled && isa.supported; });
+    REQUIRE(best != isas.rend());
+    CHECK(best_isa() == best->name);
+    CHECK(find_kernels("auto", Precision::balanced)->isa == best->name);
+}
+
+TEST_CASE("the reference is scalar, and a table of its own") {
+    const KernelTable* table = find_kernels("auto", Precision::reference);
+    CHECK(table == find_kernels("scalar", Precision::reference));
+    CHECK(table != find_kernels("scalar", Precision::balanced));
+    CHECK(table->reference == 1);
+    CHECK(table->width == 1);
+    for (const char* isa : {"sse4.2", "avx2", "avx512"}) CHECK(code_of(isa, Precision::reference) == ExitCode::isa);
+}
+
+TEST_CASE("a name that does not exist is a usage error") {
+    for (const char* name : {"", "avx", "AVX2", "sse42", "reference", "neon"}) {
+        CHECK(code_of(name, Precision::balanced) == ExitCode::usage);
+    }
+}
+
+TEST_CASE("every table that can run answers: in an empty scene all rays miss") {
+    const SceneView empty{};
+    const float zero[5] = {}, one[5] = {1, 1, 1, 1, 1};
+    for (const IsaInfo& isa : known_isas()) {
+        if (!isa.compiled || !isa.supported) continue;
+        CAPTURE(isa.name);
+        float t[5] = {};
+        std::int32_t slot[5] = {};
+        const RayStream rays{{zero, zero, zero}, {zero, zero, one}, nullptr, nullptr, t, slot, 5};
+        find_kernels(isa.name, Precision::balanced)->closest_hit(empty, rays);
+        for (int i = 0; i < 5; ++i) {
+            CHECK(slot[i] == -1);
+            CHECK(t[i] == std::numeric_limits<float>::infinity());
+        }
+    }
+}
