@@ -2,6 +2,7 @@
 
 #include "render/half_float.hpp"
 #include "render/output_file.hpp"
+#include "render/parallel_rows.hpp"
 #include "render/scrub.hpp"
 
 #include <algorithm>
@@ -89,14 +90,21 @@ void write_half(OutputFile& file, const std::string& name, const Film& film, con
     std::vector<std::uint16_t> halves[3];
     const char* planes[3];
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float>& plane = film.rgb[c];
-        halves[c].resize(plane.size());
-        for (std::size_t i = 0; i < plane.size(); ++i) {
-            const float number = plane[i] == plane[i] ? plane[i] : 0.0f;
-            halves[c][i] = half_bits(std::clamp(number, -largest_half, largest_half));
-        }
+        halves[c].resize(film.rgb[c].size());
         planes[c] = reinterpret_cast<const char*>(halves[c].data());
     }
+    for_each_row_band(film.height, options.threads, [&](int first_row, int last_row) {
+        const std::size_t width = static_cast<std::size_t>(film.width);
+        const std::size_t first = width * static_cast<std::size_t>(first_row), last = width * static_cast<std::size_t>(last_row);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float* from = film.rgb[c].data();
+            std::uint16_t* to = halves[c].data();
+            for (std::size_t i = first; i < last; ++i) {
+                const float number = from[i] == from[i] ? from[i] : 0.0f;
+                to[i] = half_bits(std::clamp(number, -largest_half, largest_half));
+            }
+        }
+    });
     write_planes(file, name, make_header(film, options), planes, options.threads);
 }
 

