@@ -47,7 +47,7 @@ struct Target {
     // Renaming over a device or a pipe would replace the thing itself.
     if (!S_ISREG(status.st_mode)) throw output_error(path, "it exists and is not a regular file");
     // A rename needs no permission on the file it replaces, but whoever made it read-only meant something.
-    if (::access(target.path.c_str(), W_OK) != 0) throw output_error(path, reason_of(errno));
+    if (::faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0) throw output_error(path, reason_of(errno));
     target.exists = true;
     target.mode = status.st_mode & 07777;
     return target;

@@ -42,7 +42,9 @@ struct Pattern {
         for (int i = 0; i < cells; ++i) {
             const auto at = static_cast<std::size_t>(i);
             if (set[at] != among_set) continue;
-            if (best < 0 || (among_set ? energy[at] > energy[static_cast<std::size_t>(best)] : energy[at] < energy[static_cast<std::size_t>(best)])) best = i;
+            if (best < 0 || (among_set ? energy[at] > energy[static_cast<std::size_t>(best)]
+                                       : energy[at] < energy[static_cast<std::size_t>(best)]))
+                best = i;
         }
         return best;
     }
