@@ -8,6 +8,7 @@
   rose_<colour>.ply            its panes, one file per colour of glass
   hall.obj, hall.mtl           walls of the hall around it; the back wall has a round opening
   floor.obj, floor.mtl         octagonal tiles with square insets
+  checkerboard.obj, .mtl       48 x 48 unit squares
   gem.ply                      a brilliant cut; ASCII
   dodecahedron.obj, .mtl       in six colours: materials, polygons, negative indices
 
@@ -392,9 +393,8 @@ def dodecahedron():
     mesh.points = points
     for a in (-1, 1):
         for b in (-g, g):
-            for axis, normal in enumerate(((0, a, b), (a, b, 0), (b, 0, a))):
+            for axis, normal in enumerate(((a, 0, b), (0, b, a), (b, a, 0))):  # the points of the dual icosahedron
                 n = unit(normal)
-                # the face normals of the dodecahedron are the icosahedron's points: (0, 1, g) and its turns
                 reach = max(dot(p, n) for p in points)
                 face = [i for i, p in enumerate(points) if dot(p, n) > reach - 1e-9]
                 s = unit(sub(points[face[0]], times(n, reach)))
@@ -402,6 +402,16 @@ def dodecahedron():
                 face.sort(key=lambda i: math.atan2(dot(points[i], t), dot(points[i], s)))
                 mesh.faces.append(face)
                 mesh.materials.append(f"colour{axis}{0 if a * b > 0 else 1}")
+    return mesh
+
+
+def checkerboard(n=48):
+    """n x n unit squares in y = 0 about the origin."""
+    mesh = Mesh()
+    for i in range(n):
+        for k in range(n):
+            x, z = i - n / 2, k - n / 2
+            mesh.face((x, 0, z), (x, 0, z + 1), (x + 1, 0, z + 1), (x + 1, 0, z), material="light" if (i + k) % 2 else "dark")
     return mesh
 
 
@@ -417,6 +427,7 @@ def main():
     write_obj(out / "floor.obj", floor(), "octagonal tiles with square insets",
               {"light": (0.76, 0.73, 0.67), "warm": (0.58, 0.54, 0.48), "dark": (0.06, 0.09, 0.11), "joint": (0.22, 0.21, 0.20)})
     write_ply(out / "gem.ply", outward(gem()), "a brilliant cut", binary=False)
+    write_obj(out / "checkerboard.obj", checkerboard(), "48 x 48 unit squares", {"light": (0.80, 0.76, 0.66), "dark": (0.16, 0.22, 0.28)})
     write_obj(out / "dodecahedron.obj", dodecahedron(), "a dodecahedron in six colours",
               {"colour00": (0.80, 0.20, 0.15), "colour01": (0.95, 0.55, 0.15), "colour10": (0.20, 0.45, 0.75),
                "colour11": (0.15, 0.60, 0.55), "colour20": (0.90, 0.82, 0.35), "colour21": (0.45, 0.25, 0.55)}, relative=True)
