@@ -13,21 +13,22 @@ template <FloatBatch F>
 struct Packet {
     using S = Scalar<F>;
     static constexpr std::uint32_t capacity = packet_vectors * width<F>;
+    static constexpr std::uint32_t stride = capacity + width<F>; ///< compression stores whole vectors
 
-    alignas(64) S org[3][capacity];
-    S dir[3][capacity];
+    alignas(64) S org[3][stride];
+    S dir[3][stride];
     // Slabs: a box is entered at max((near - org_near) * rcp), left at min((far - org_far) * rcp). The origins are moved apart by
     // 16 u (|org| + M), M the scene's largest coordinate, which covers the rounding of the slab test (6 u), that of the sheared
     // vertices (3 u) and of the quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
-    S org_near[3][capacity];
-    S org_far[3][capacity];
-    S rcp[3][capacity];
-    S shear[3][capacity]; ///< dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz]
-    S tmin[capacity];
-    S t[capacity]; ///< nearest so far; -1: a lane without a ray, or whose question is answered
-    std::int32_t slot[capacity];
-    std::int32_t source[capacity];
-    std::int32_t after[capacity];
+    S org_near[3][stride];
+    S org_far[3][stride];
+    S rcp[3][stride];
+    S shear[3][stride]; ///< (dir[kx], dir[ky], 1) / dir[kz]
+    S tmin[stride];
+    S t[stride]; ///< nearest so far; -1: a lane without a ray, or whose question is answered
+    std::int32_t slot[stride];
+    std::int32_t source[stride];
+    std::int32_t after[stride];
 
     int vectors;
     std::uint32_t count; ///< rays; the lanes beyond repeat the last one with t = -1
@@ -63,12 +64,12 @@ LANECAST_INLINE Int<F> packet_key(const Vec3<F>& d) {
            select(d.z < F(0), Int<F>(4), Int<F>(0));
 }
 
-/// Fills the derived arrays and intervals from org, dir and t of `count` rays that share `key`.
+/// Fills the derived arrays and intervals from org, dir, tmin, t, source of packet.count rays that share `key`.
 template <FloatBatch F>
-void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, float max_coordinate) {
+void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
     using S = Scalar<F>;
     constexpr std::uint32_t W = width<F>;
-    packet.count = count;
+    const std::uint32_t count = packet.count;
     packet.vectors = static_cast<int>((count + W - 1) / W);
     packet.axes = axes_of(key >> 3);
     for (int axis = 0; axis < 3; ++axis) packet.negative[axis] = ((key >> axis) & 1) != 0;
@@ -80,7 +81,6 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
         }
         packet.tmin[i] = 0;
         packet.t[i] = -1;
-        packet.slot[i] = -1;
         packet.source[i] = no_source;
         packet.after[i] = -1;
     }
@@ -115,9 +115,10 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
     F t_max(S(-1));
     const auto [kx, ky, kz] = packet.axes;
     for (std::uint32_t i = 0; i < padded; i += W) {
+        store(packet.slot + i, Int<F>(-1));
         const F dz = load<F>(packet.dir[kz] + i);
         const F inv_dz = F(1) / dz;
-        const F sx = load<F>(packet.dir[kx] + i) / dz, sy = load<F>(packet.dir[ky] + i) / dz;
+        const F sx = load<F>(packet.dir[kx] + i) * inv_dz, sy = load<F>(packet.dir[ky] + i) * inv_dz;
         store(packet.shear[0] + i, sx);
         store(packet.shear[1] + i, sy);
         store(packet.shear[2] + i, inv_dz);
@@ -132,7 +133,7 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
             const F d = load<F>(packet.dir[axis] + i);
             const F away = (abs(o) + largest) * F(S(9.6e-7)); // 16 u
             const F magnitude = max(abs(d), least);
-            const F rcp = F(1) / (packet.negative[axis] ? -magnitude : magnitude);
+            const F rcp = axis == kz ? inv_dz : F(1) / (packet.negative[axis] ? -magnitude : magnitude);
             const F o_near = packet.negative[axis] ? o - away : o + away;
             const F o_far = packet.negative[axis] ? o + away : o - away;
             store(packet.rcp[axis] + i, rcp);
