@@ -24,8 +24,8 @@ forbidden() {
     case "$1" in
     baseline | scalar | reference) echo "$vex|$lzcnt|$sse4|$sse3|$fma" ;;
     sse42) echo "$vex|$lzcnt|$fma" ;;
-    avx2) echo "$avx512|$fma" ;;
-    *) echo "$fma" ;;
+    avx2) echo "$avx512|$lzcnt|$fma" ;;
+    *) echo "$lzcnt|$fma" ;;
     esac
 }
 
