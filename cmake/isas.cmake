@@ -39,9 +39,13 @@ function(lanecast_isa_flags target isa)
   set(flags ${lanecast_isa_${isa}})
   list(REMOVE_AT flags 0 1)
   target_link_libraries(${target} PRIVATE lanecast_flags)
-  target_compile_definitions(${target} PRIVATE LANECAST_ISA=${isa})
+  target_compile_definitions(${target} PRIVATE
+    LANECAST_ISA=${isa} LANECAST_REFERENCE=$<STREQUAL:${isa},reference>)
   target_compile_options(${target} PRIVATE
-    ${flags} -fno-lto $<IF:$<CONFIG:Debug>,-Og,${lanecast_kernel_level}>)
+    ${flags} -fno-lto
+    # g++ 12's own AVX-512 intrinsics start from an uninitialised variable (GCC bug 105593)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+    $<IF:$<CONFIG:Debug>,-Og,${lanecast_kernel_level}>)
   set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
 endfunction()
 

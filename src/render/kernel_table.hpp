@@ -82,6 +82,7 @@ struct RenderJob {
     CameraRecord camera;
     FilmView film;
     std::int32_t image_width, image_height;
+    std::int32_t tile_size; ///< no tile is wider or higher
     std::int32_t depth;
     float cutoff;
     std::uint32_t shadows;              ///< 0, 1
@@ -104,6 +105,7 @@ struct RayStream {
     const float* tmax;   ///< and t <= tmax; may be null: infinity
     float* t;            ///< out; closest_hit: of the hit, tmax where there is none. any_hit: unused
     std::int32_t* slot;  ///< out: the primitive's slot, -1 for a miss; any_hit: some primitive's
+    std::uint32_t brute_force; ///< 1: every primitive instead of the tree
     std::uint32_t count;
 };
 

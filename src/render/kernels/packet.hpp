@@ -1,0 +1,159 @@
+#pragma once
+// A packet: up to 16 vectors of rays of one octant and one dominant axis, with everything traversal reads, and the intervals
+// that bound all of them.
+
+#include "render/kernels/rays.hpp"
+#include "render/kernels/triangle.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+inline constexpr int packet_vectors = 16;
+
+template <FloatBatch F>
+struct Packet {
+    using S = Scalar<F>;
+    static constexpr std::uint32_t capacity = packet_vectors * width<F>;
+
+    alignas(64) S org[3][capacity];
+    S dir[3][capacity];
+    // Slabs: a box is entered at max((near - org_near) * rcp), left at min((far - org_far) * rcp). The origins are moved apart by
+    // 16 u (|org| + M), M the scene's largest coordinate, which covers the rounding of the slab test (6 u), that of the sheared
+    // vertices (3 u) and of the quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
+    S org_near[3][capacity];
+    S org_far[3][capacity];
+    S rcp[3][capacity];
+    S shear[3][capacity]; ///< dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz]
+    S tmin[capacity];
+    S t[capacity]; ///< nearest so far; -1: a lane without a ray, or whose question is answered
+    std::int32_t slot[capacity];
+    std::int32_t source[capacity];
+    std::int32_t after[capacity];
+
+    int vectors;
+    std::uint32_t count; ///< rays; the lanes beyond repeat the last one with t = -1
+    Axes axes;
+    bool negative[3]; ///< of the directions
+
+    // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
+    S interval_near[3], interval_far[3];
+    S rcp_min[3], rcp_max[3];
+    S spread; ///< of the slopes dir[kx] / dir[kz] and dir[ky] / dir[kz], 0 to 2
+    S t_max;  ///< largest t
+
+    [[nodiscard]] LANECAST_INLINE ShearedRay<F> sheared(std::uint32_t i) const {
+        return {{load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)},
+                {load<F>(shear[0] + i), load<F>(shear[1] + i), load<F>(shear[2] + i)}};
+    }
+    [[nodiscard]] LANECAST_INLINE Vec3<F> origin(std::uint32_t i) const {
+        return {load<F>(org[0] + i), load<F>(org[1] + i), load<F>(org[2] + i)};
+    }
+    [[nodiscard]] LANECAST_INLINE Vec3<F> direction(std::uint32_t i) const {
+        return {load<F>(dir[0] + i), load<F>(dir[1] + i), load<F>(dir[2] + i)};
+    }
+};
+
+/// Octant in bits 0 to 2 (sign bits of x, y, z), dominant axis in bits 3 and 4: rays of one key may share a packet.
+template <FloatBatch F>
+LANECAST_INLINE Int<F> packet_key(const Vec3<F>& d) {
+    const Vec3<F> a = abs(d);
+    const Mask<F> y_wins = a.y > a.x;
+    const Mask<F> z_wins = a.z > max(a.x, a.y);
+    const Int<F> axis = select(z_wins, Int<F>(16), select(y_wins, Int<F>(8), Int<F>(0)));
+    return axis | select(d.x < F(0), Int<F>(1), Int<F>(0)) | select(d.y < F(0), Int<F>(2), Int<F>(0)) |
+           select(d.z < F(0), Int<F>(4), Int<F>(0));
+}
+
+/// Fills the derived arrays and intervals from org, dir and t of `count` rays that share `key`.
+template <FloatBatch F>
+void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, float max_coordinate) {
+    using S = Scalar<F>;
+    constexpr std::uint32_t W = width<F>;
+    packet.count = count;
+    packet.vectors = static_cast<int>((count + W - 1) / W);
+    packet.axes = axes_of(key >> 3);
+    for (int axis = 0; axis < 3; ++axis) packet.negative[axis] = ((key >> axis) & 1) != 0;
+    const std::uint32_t padded = static_cast<std::uint32_t>(packet.vectors) * W;
+    for (std::uint32_t i = count; i < padded; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            packet.org[axis][i] = packet.org[axis][count - 1];
+            packet.dir[axis][i] = packet.dir[axis][count - 1];
+        }
+        packet.tmin[i] = 0;
+        packet.t[i] = -1;
+        packet.slot[i] = -1;
+        packet.source[i] = no_source;
+        packet.after[i] = -1;
+    }
+
+    // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
+    for (std::uint32_t i = 0; i < padded; i += W) {
+        const F limit(std::numeric_limits<S>::max());
+        Mask<F> valid = abs(load<F>(packet.dir[packet.axes.kz] + i)) > F(0);
+        for (int axis = 0; axis < 3; ++axis) {
+            valid = valid & (abs(load<F>(packet.org[axis] + i)) <= limit) & (abs(load<F>(packet.dir[axis] + i)) <= limit);
+        }
+        if (all(valid)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            const S slope = axis == packet.axes.kz ? S(1) : S(0.5);
+            store(packet.org[axis] + i, select(valid, load<F>(packet.org[axis] + i), F(0)));
+            store(packet.dir[axis] + i,
+                  select(valid, load<F>(packet.dir[axis] + i), F(packet.negative[axis] ? -slope : slope)));
+        }
+        store(packet.t + i, select(valid, load<F>(packet.t + i), F(S(-1))));
+    }
+
+    const F largest = F(S(max_coordinate));
+    const F infinity(std::numeric_limits<S>::infinity());
+    F near_bound[3], far_bound[3], rcp_min[3], rcp_max[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        near_bound[axis] = packet.negative[axis] ? infinity : -infinity;
+        far_bound[axis] = -near_bound[axis];
+        rcp_min[axis] = infinity;
+        rcp_max[axis] = -infinity;
+    }
+    F slope_min[2] = {infinity, infinity}, slope_max[2] = {-infinity, -infinity};
+    F t_max(S(-1));
+    const auto [kx, ky, kz] = packet.axes;
+    for (std::uint32_t i = 0; i < padded; i += W) {
+        const F dz = load<F>(packet.dir[kz] + i);
+        const F inv_dz = F(1) / dz;
+        const F sx = load<F>(packet.dir[kx] + i) / dz, sy = load<F>(packet.dir[ky] + i) / dz;
+        store(packet.shear[0] + i, sx);
+        store(packet.shear[1] + i, sy);
+        store(packet.shear[2] + i, inv_dz);
+        slope_min[0] = min(slope_min[0], sx);
+        slope_max[0] = max(slope_max[0], sx);
+        slope_min[1] = min(slope_min[1], sy);
+        slope_max[1] = max(slope_max[1], sy);
+        // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
+        const F least = abs(dz) * F(S(8.7e-19));
+        for (int axis = 0; axis < 3; ++axis) {
+            const F o = load<F>(packet.org[axis] + i);
+            const F d = load<F>(packet.dir[axis] + i);
+            const F away = (abs(o) + largest) * F(S(9.6e-7)); // 16 u
+            const F magnitude = max(abs(d), least);
+            const F rcp = F(1) / (packet.negative[axis] ? -magnitude : magnitude);
+            const F o_near = packet.negative[axis] ? o - away : o + away;
+            const F o_far = packet.negative[axis] ? o + away : o - away;
+            store(packet.rcp[axis] + i, rcp);
+            store(packet.org_near[axis] + i, o_near);
+            store(packet.org_far[axis] + i, o_far);
+            rcp_min[axis] = min(rcp_min[axis], rcp);
+            rcp_max[axis] = max(rcp_max[axis], rcp);
+            near_bound[axis] = packet.negative[axis] ? min(near_bound[axis], o_near) : max(near_bound[axis], o_near);
+            far_bound[axis] = packet.negative[axis] ? max(far_bound[axis], o_far) : min(far_bound[axis], o_far);
+        }
+        t_max = max(t_max, load<F>(packet.t + i));
+    }
+    packet.t_max = reduce_max(t_max);
+    packet.spread =
+        (reduce_max(slope_max[0]) - reduce_min(slope_min[0])) + (reduce_max(slope_max[1]) - reduce_min(slope_min[1]));
+    for (int axis = 0; axis < 3; ++axis) {
+        packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
+        packet.rcp_max[axis] = reduce_max(rcp_max[axis]);
+        packet.interval_near[axis] = packet.negative[axis] ? reduce_min(near_bound[axis]) : reduce_max(near_bound[axis]);
+        packet.interval_far[axis] = packet.negative[axis] ? reduce_max(far_bound[axis]) : reduce_min(far_bound[axis]);
+    }
+}
+
+} // namespace lanecast::inline LANECAST_ISA

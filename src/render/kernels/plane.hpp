@@ -1,0 +1,19 @@
+#pragma once
+// Rays against infinite planes, normal . p = distance.
+
+#include "scene/scene_view.hpp"
+#include "simd/vec3.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+/// In units of |d|; infinite or NaN, which no range accepts, for rays that run along the plane.
+template <FloatBatch F>
+LANECAST_INLINE F plane_t(const PlaneRecord& plane, const Vec3<F>& org, const Vec3<F>& dir) {
+    using S = Scalar<F>;
+    const Vec3<F> n = splat<F>(plane.normal);
+    // one rounding per term of the distance: it cancels for a ray that starts close to the plane
+    const F height = fused(n.x, org.x, fused(n.y, org.y, n.z * org.z - F(S(plane.distance))));
+    return -height / dot(n, dir);
+}
+
+} // namespace lanecast::inline LANECAST_ISA

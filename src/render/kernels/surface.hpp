@@ -1,0 +1,169 @@
+#pragma once
+// What a ray hit, recomputed once from t and slot when shading: a point on the surface, how far it may be off, the normal.
+
+#include "render/kernels/quadric.hpp"
+#include "render/kernels/triangle.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+template <FloatBatch F>
+struct Surface {
+    Vec3<F> point;
+    Vec3<F> normal; ///< unit, faces the ray
+    F offset;       ///< along the normal: beyond the error of the point (pbrt 4ed, 6.8.6)
+    Mask<F> inside; ///< the ray came from where the geometric normal does not point
+};
+
+namespace detail {
+
+// Bounds of |delta p| per component are these times magnitudes; u = 2^-24 (float), 2^-53 (double).
+template <FloatBatch F>
+inline constexpr Scalar<F> gamma_7 = sizeof(Scalar<F>) == 4 ? Scalar<F>(4.2e-7) : Scalar<F>(7.8e-16);
+template <FloatBatch F>
+inline constexpr Scalar<F> two_u = sizeof(Scalar<F>) == 4 ? Scalar<F>(1.2e-7) : Scalar<F>(2.3e-16);
+
+template <FloatBatch F>
+struct Point {
+    Vec3<F> position, normal, error; ///< the normal points outside
+};
+
+template <FloatBatch F>
+LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) {
+    into.position = select(lanes, from.position, into.position);
+    into.normal = select(lanes, from.normal, into.normal);
+    into.error = select(lanes, from.error, into.error);
+}
+
+/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md, 1.1).
+template <FloatBatch F>
+LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot, Mask<F> lanes) {
+    using S = Scalar<F>;
+    const Vec3<F> zero{F(0), F(0), F(0)};
+    Vec3<F> a = zero, b = zero, c = zero, n = zero;
+    for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
+        const TriangleRecord& triangle = scene.triangles[s];
+        const std::uint32_t count = ((triangle.block >> 3) & 7u) + 1u;
+        const float* const v =
+            reinterpret_cast<const float*>(scene.arena + std::uint64_t{triangle.block >> 6} * 64u) + (triangle.block & 7u);
+        const auto vertex = [&](std::uint32_t k) {
+            return Vec3<F>{F(S(v[3 * k * count])), F(S(v[(3 * k + 1) * count])), F(S(v[(3 * k + 2) * count]))};
+        };
+        a = select(same, vertex(0), a);
+        b = select(same, vertex(1), b);
+        c = select(same, vertex(2), c);
+        n = select(same, splat<F>(triangle.normal), n);
+    });
+    const Vec3<F> magnitude = abs(dir);
+    const Mask<F> z_wins = magnitude.z > max(magnitude.x, magnitude.y);
+    const Mask<F> y_wins = (!z_wins) & (magnitude.y > magnitude.x);
+    const auto permute = [&](const Vec3<F>& v) { // kx, ky, kz: x wins: y z x, y wins: z x y
+        return Vec3<F>{select(z_wins, v.x, select(y_wins, v.z, v.y)), select(z_wins, v.y, select(y_wins, v.x, v.z)),
+                       select(z_wins, v.z, select(y_wins, v.y, v.x))};
+    };
+    const Vec3<F> d = permute(dir);
+    const ShearedRay<F> ray{permute(org), {d.x / d.z, d.y / d.z, F(1) / d.z}};
+    const TriangleEdges<F> edges = triangle_edges(ray, permute(a), permute(b), permute(c));
+    const F inv_det = F(1) / (edges.u + edges.v + edges.w);
+    const Vec3<F> along_b = (b - a) * (edges.v * inv_det), along_c = (c - a) * (edges.w * inv_det);
+    return {a + (along_b + along_c), n, (abs(a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>)};
+}
+
+template <FloatBatch F>
+LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot,
+                                      Mask<F> lanes) {
+    using S = Scalar<F>;
+    Vec3<F> centre{F(0), F(0), F(0)};
+    F radius(1);
+    for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
+        const SphereRecord& sphere = scene.spheres[static_cast<std::uint32_t>(s) - scene.first_slot[1]];
+        centre = select(same, splat<F>(sphere.centre), centre);
+        radius = select(same, F(S(sphere.radius)), radius);
+    });
+    const Vec3<F> n = normalize(fused(dir, t, org - centre));
+    const F slack = radius * F(gamma_7<F>);
+    return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>)};
+}
+
+/// An ellipsoid's or cylinder's point from its point and normal in object space.
+template <FloatBatch F>
+LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t record, const Vec3<F>& p, const Vec3<F>& n) {
+    const AffineRecord& affine = scene.affines[record];
+    const AffineShadingRecord& forward = scene.affine_shading[record];
+    const Vec3<F> translation = splat<F>(affine.translation);
+    return {multiply<F>(forward.world_from_object, p) + translation,
+            normalize(multiply_transposed<F>(affine.object_from_world, n)),
+            multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) + abs(translation) * F(two_u<F>)};
+}
+
+template <FloatBatch F>
+LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
+    const std::uint32_t record = static_cast<std::uint32_t>(slot) - scene.first_slot[2];
+    const AffineRecord& affine = scene.affines[record];
+    const Vec3<F> p = normalize(fused(direction_to_object(affine, dir), t, point_to_object(affine, org)));
+    return affine_point(scene, record, p, p);
+}
+
+template <FloatBatch F>
+LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
+    using S = Scalar<F>;
+    const std::uint32_t record = static_cast<std::uint32_t>(slot) - scene.first_slot[2];
+    const AffineRecord& affine = scene.affines[record];
+    const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
+    const CylinderCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
+    const Mask<F> enters = t == crossing.ends.t0;
+    const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
+    const Vec3<F> q = fused(d, t, o);
+    const F zero(0), half(S(0.5)), inv_radius = F(1) / sqrt(q.x * q.x + q.z * q.z);
+    const F side = copysign(half, q.y);
+    const Vec3<F> on_side{q.x * inv_radius, max(min(q.y, half), -half), q.z * inv_radius};
+    const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, on_side);
+    const Vec3<F> n = select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{on_side.x, zero, on_side.z});
+    return affine_point(scene, record, p, n);
+}
+
+template <FloatBatch F>
+LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
+    using S = Scalar<F>;
+    const PlaneRecord& plane = scene.planes[static_cast<std::uint32_t>(slot) - scene.first_slot[4]];
+    const Vec3<F> n = splat<F>(plane.normal);
+    const Vec3<F> along = org + dir * t;
+    const Vec3<F> p = along - n * (dot(n, along) - F(S(plane.distance)));
+    return {p, n, abs(along) * F(gamma_7<F>)};
+}
+
+} // namespace detail
+
+/// Of the lanes of `found`, which is not empty.
+template <FloatBatch F>
+Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot, Mask<F> found) {
+    const auto kind_lanes = [&](PrimitiveKind kind) {
+        const auto k = static_cast<std::uint32_t>(kind);
+        const Int<F> first(static_cast<std::int32_t>(scene.first_slot[k]));
+        const Int<F> end(static_cast<std::int32_t>(scene.first_slot[k + 1]));
+        return found & (slot > first - Int<F>(1)) & (end > slot);
+    };
+    const Vec3<F> zero{F(0), F(0), F(0)};
+    detail::Point<F> point{zero, {F(1), F(0), F(0)}, zero};
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::triangle); any(lanes))
+        merge(point, lanes, detail::triangle_point(scene, org, dir, slot, lanes));
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::sphere); any(lanes))
+        merge(point, lanes, detail::sphere_point(scene, org, dir, t, slot, lanes));
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::ellipsoid); any(lanes))
+        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
+            merge(point, same, detail::ellipsoid_point(scene, org, dir, t, s));
+        });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cylinder); any(lanes))
+        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
+            merge(point, same, detail::cylinder_point(scene, org, dir, t, s));
+        });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
+        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
+            merge(point, same, detail::plane_point(scene, org, dir, t, s));
+        });
+    const Mask<F> inside = found & (dot(dir, point.normal) > F(0));
+    // the offset is added to a rounded position: 2 u |p| keeps it outside whatever that rounds to
+    const F offset = dot(abs(point.normal), point.error + abs(point.position) * F(detail::two_u<F>));
+    return {point.position, select(inside, -point.normal, point.normal), offset, inside};
+}
+
+} // namespace lanecast::inline LANECAST_ISA

@@ -1,0 +1,129 @@
+#pragma once
+// Packets through the tree: one interval test of a node's eight children for the whole packet, then each surviving child
+// against each vector that is still in its subtree; nearest child first.
+
+#include "render/kernels/leaf.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+inline constexpr int stack_capacity = 7 * max_bvh_depth + 1;
+
+template <FloatBatch F>
+struct StackEntry {
+    std::uint64_t child;
+    Scalar<F> near; ///< no ray of the packet enters before
+    std::uint32_t vectors;
+};
+
+/// Lanes active at the first and last test, for the statistics.
+struct Occupancy {
+    std::uint64_t first_lanes, first_active, last_lanes, last_active;
+};
+
+/// Bit c: some ray of the packet may enter child c, not before near[c].
+template <FloatBatch F>
+LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhNode& node, Scalar<F>* near) {
+    using S = Scalar<F>;
+    std::uint32_t entered = 0;
+    for (int c = 0; c < 8; c += width<F>) {
+        F enter(0), leave{S(packet.t_max)};
+        for (int axis = 0; axis < 3; ++axis) {
+            const F near_plane = load_eight<F>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
+            const F far_plane = load_eight<F>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
+            const F x = near_plane - F(packet.interval_near[axis]);
+            const F y = far_plane - F(packet.interval_far[axis]);
+            const F r0(packet.rcp_min[axis]), r1(packet.rcp_max[axis]);
+            enter = max(min(x * r0, x * r1), enter);
+            leave = min(max(y * r0, y * r1), leave);
+        }
+        store(near + c, enter);
+        entered |= bits(enter <= leave) << c;
+    }
+    return entered & 0xffu;
+}
+
+/// Bit v of `vectors` stays when a ray of vector v may enter the child.
+template <FloatBatch F>
+LANECAST_INLINE std::uint32_t enter_vectors(const Packet<F>& packet, const BvhNode& node, std::uint32_t child,
+                                            std::uint32_t vectors) {
+    using S = Scalar<F>;
+    F near_plane[3], far_plane[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        near_plane[axis] = F(S(packet.negative[axis] ? node.hi[axis][child] : node.lo[axis][child]));
+        far_plane[axis] = F(S(packet.negative[axis] ? node.lo[axis][child] : node.hi[axis][child]));
+    }
+    std::uint32_t entered = 0;
+    for_each_bit(vectors, [&](std::uint32_t vector) {
+        const std::uint32_t i = vector * width<F>;
+        F enter(0), leave = load<F>(packet.t + i);
+        for (int axis = 0; axis < 3; ++axis) {
+            const F rcp = load<F>(packet.rcp[axis] + i);
+            enter = max((near_plane[axis] - load<F>(packet.org_near[axis] + i)) * rcp, enter);
+            leave = min((far_plane[axis] - load<F>(packet.org_far[axis] + i)) * rcp, leave);
+        }
+        entered |= (any(enter <= leave) ? 1u : 0u) << vector;
+    });
+    return entered;
+}
+
+template <FloatBatch F>
+LANECAST_INLINE void update_t_max(Packet<F>& packet) {
+    F t_max(Scalar<F>(-1));
+    for (int vector = 0; vector < packet.vectors; ++vector)
+        t_max = max(t_max, load<F>(packet.t + static_cast<std::uint32_t>(vector) * width<F>));
+    packet.t_max = reduce_max(t_max);
+}
+
+/// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
+template <Query query, FloatBatch F>
+std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
+    std::uint32_t last = (1u << packet.vectors) - 1u;
+    StackEntry<F> stack[stack_capacity];
+    int top = 0;
+    stack[top++] = {0, 0, last};
+    alignas(64) Scalar<F> near[16];
+    while (top > 0) {
+        const StackEntry<F> entry = stack[--top];
+        if (entry.near > packet.t_max) continue;
+        if ((entry.child & child_is_leaf) != 0) {
+            last = entry.vectors;
+            if (hit_leaf<query>(scene, packet, entry.vectors, entry.child)) {
+                update_t_max(packet);
+                if (query == Query::any && packet.t_max < Scalar<F>(0)) break;
+            }
+            continue;
+        }
+        const auto& node = *reinterpret_cast<const BvhNode*>(scene.arena + entry.child * 64u);
+        const int first_pushed = top;
+        for_each_bit(enter_children(packet, node, near), [&](std::uint32_t c) {
+            const std::uint32_t vectors = enter_vectors(packet, node, c, entry.vectors);
+            if (vectors == 0) return;
+            // insertion by distance, the nearest on top
+            int place = top++;
+            for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];
+            stack[place] = {node.child[c], near[c], vectors};
+        });
+    }
+    return last;
+}
+
+template <Query query, FloatBatch F>
+void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force, Occupancy& occupancy) {
+    occupancy.first_lanes += static_cast<std::uint64_t>(packet.vectors) * width<F>;
+    occupancy.first_active += packet.count;
+    hit_planes<query>(scene, packet);
+    std::uint32_t last = (1u << packet.vectors) - 1u;
+    if (scene.first_slot[5] != scene.first_slot[4]) update_t_max(packet);
+    if (scene.leaf_count != 0 && brute_force) {
+        for (std::uint32_t leaf = 0; leaf < scene.leaf_count; ++leaf) hit_leaf<query>(scene, packet, last, scene.leaves[leaf]);
+    } else if (scene.leaf_count != 0 && packet.t_max >= Scalar<F>(0)) {
+        last = traverse_tree<query>(scene, packet);
+    }
+    for_each_bit(last, [&](std::uint32_t vector) {
+        const std::uint32_t i = vector * width<F>;
+        occupancy.last_lanes += width<F>;
+        occupancy.last_active += static_cast<std::uint64_t>(std::popcount(bits(load<F>(packet.t + i) >= F(0))));
+    });
+}
+
+} // namespace lanecast::inline LANECAST_ISA

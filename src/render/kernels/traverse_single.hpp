@@ -1,0 +1,170 @@
+#pragma once
+// The rays of an incoherent packet one by one: eight children, then eight triangles, per test.
+
+#include "render/kernels/traverse.hpp"
+
+namespace lanecast::inline LANECAST_ISA {
+
+/// Ray i of a packet, and what it has found.
+template <FloatBatch F>
+struct SingleRay {
+    using S = Scalar<F>;
+    S org[3], dir[3], org_near[3], org_far[3], rcp[3], shear[3];
+    S tmin, t;
+    std::int32_t slot, source, after;
+
+    SingleRay(const Packet<F>& packet, std::uint32_t i)
+        : tmin(packet.tmin[i]), t(packet.t[i]), slot(packet.slot[i]), source(packet.source[i]), after(packet.after[i]) {
+        for (int axis = 0; axis < 3; ++axis) {
+            org[axis] = packet.org[axis][i];
+            dir[axis] = packet.dir[axis][i];
+            org_near[axis] = packet.org_near[axis][i];
+            org_far[axis] = packet.org_far[axis][i];
+            rcp[axis] = packet.rcp[axis][i];
+            shear[axis] = packet.shear[axis][i];
+        }
+    }
+};
+
+/// As `later` and `take` do for a vector.
+template <Query query, FloatBatch F>
+LANECAST_INLINE bool later(const SceneView& scene, const SingleRay<F>& ray, Scalar<F> t, std::uint32_t slot) {
+    if (t > ray.tmin) return true;
+    return query == Query::next && t == ray.tmin && static_cast<std::int32_t>(scene.scene_id[slot]) > ray.after;
+}
+template <Query query, FloatBatch F>
+LANECAST_INLINE void take(const SceneView& scene, SingleRay<F>& ray, Scalar<F> t, std::uint32_t slot) {
+    const bool tied = t == ray.t && ray.slot >= 0;
+    if (query != Query::any && tied && scene.scene_id[slot] > scene.scene_id[ray.slot]) return;
+    ray.t = query == Query::any ? Scalar<F>(-1) : t;
+    ray.slot = static_cast<std::int32_t>(slot);
+}
+
+template <Query query, FloatBatch F>
+LANECAST_INLINE void hit_triangles(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const float* block,
+                                   std::uint32_t first_slot, std::uint32_t count) {
+    using S = Scalar<F>;
+    constexpr std::uint32_t W = width<F>;
+    const ShearedRay<F> sheared{{F(ray.org[axes.kx]), F(ray.org[axes.ky]), F(ray.org[axes.kz])},
+                                {F(ray.shear[0]), F(ray.shear[1]), F(ray.shear[2])}};
+    for (std::uint32_t c = 0; c < count; c += W) {
+        const auto vertex = [&](std::uint32_t v) {
+            const float* const row = block + c + 3 * v * count;
+            return Vec3<F>{load_eight<F>(row + static_cast<std::uint32_t>(axes.kx) * count),
+                           load_eight<F>(row + static_cast<std::uint32_t>(axes.ky) * count),
+                           load_eight<F>(row + static_cast<std::uint32_t>(axes.kz) * count)};
+        };
+        const TriangleEdges<F> edges = triangle_edges(sheared, vertex(0), vertex(1), vertex(2));
+        const Mask<F> inside = edges.inside & first_lanes<F>(count - c);
+        if (none(inside)) continue;
+        const F t = triangle_t(sheared, edges);
+        alignas(64) S t_lanes[W];
+        store(t_lanes, t);
+        for_each_bit(bits(inside & (t <= F(ray.t)) & (t >= F(ray.tmin))), [&](std::uint32_t lane) {
+            const std::uint32_t slot = first_slot + c + lane;
+            const S t_lane = t_lanes[lane];
+            if (t_lane > ray.t || !later<query>(scene, ray, t_lane, slot)) return;
+            if (ray.source == source_outward(static_cast<std::int32_t>(slot))) return;
+            take<query>(scene, ray, t_lane, slot);
+        });
+    }
+}
+
+template <Query query, FloatBatch F>
+void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, std::uint32_t slot) {
+    using S = Scalar<F>;
+    const Vec3<S> org{ray.org[0], ray.org[1], ray.org[2]}, dir{ray.dir[0], ray.dir[1], ray.dir[2]};
+    Crossing<S> ends;
+    if (kind == PrimitiveKind::sphere) {
+        const SphereRecord& sphere = scene.spheres[slot - scene.first_slot[1]];
+        ends = cross_sphere<S>(org - splat<S>(sphere.centre), dir, S(sphere.radius), true);
+    } else {
+        const AffineRecord& affine = scene.affines[slot - scene.first_slot[2]];
+        const Vec3<S> o = point_to_object<S>(affine, org), d = direction_to_object<S>(affine, dir);
+        ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
+    }
+    const auto this_slot = static_cast<std::int32_t>(slot);
+    if (!ends.hit || ray.source == source_outward(this_slot)) return;
+    const bool enters = ray.source != source_inward(this_slot) && later<query>(scene, ray, ends.t0, slot);
+    const S t = enters ? ends.t0 : ends.t1;
+    if ((enters || later<query>(scene, ray, t, slot)) && t <= ray.t) take<query>(scene, ray, t, slot);
+}
+
+template <Query query, FloatBatch F>
+LANECAST_INLINE void hit_leaf(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, std::uint64_t child) {
+    const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & 7u);
+    const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & 7u) + 1u;
+    const auto first_slot = static_cast<std::uint32_t>(child);
+    if (kind == PrimitiveKind::triangle) {
+        const std::uint64_t offset = ((child >> child_block_shift) & 0x1ffffffu) * 64u;
+        hit_triangles<query>(scene, ray, axes, reinterpret_cast<const float*>(scene.arena + offset), first_slot, count);
+    } else {
+        for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) hit_quadric<query>(scene, ray, kind, slot);
+    }
+}
+
+template <Query query, FloatBatch F>
+void traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const bool (&negative)[3]) {
+    using S = Scalar<F>;
+    struct Entry {
+        std::uint64_t child;
+        S near;
+    };
+    Entry stack[stack_capacity];
+    int top = 0;
+    stack[top++] = {0, 0};
+    F org_near[3], org_far[3], rcp[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        org_near[axis] = F(ray.org_near[axis]);
+        org_far[axis] = F(ray.org_far[axis]);
+        rcp[axis] = F(ray.rcp[axis]);
+    }
+    alignas(64) S near[16];
+    while (top > 0) {
+        const Entry entry = stack[--top];
+        if (entry.near > ray.t) continue;
+        if ((entry.child & child_is_leaf) != 0) {
+            hit_leaf<query>(scene, ray, axes, entry.child);
+            if (query == Query::any && ray.t < S(0)) return;
+            continue;
+        }
+        const auto& node = *reinterpret_cast<const BvhNode*>(scene.arena + entry.child * 64u);
+        std::uint32_t entered = 0;
+        for (int c = 0; c < 8; c += width<F>) {
+            F enter(0), leave(ray.t);
+            for (int axis = 0; axis < 3; ++axis) {
+                const F near_plane = load_eight<F>((negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
+                const F far_plane = load_eight<F>((negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
+                enter = max((near_plane - org_near[axis]) * rcp[axis], enter);
+                leave = min((far_plane - org_far[axis]) * rcp[axis], leave);
+            }
+            store(near + c, enter);
+            entered |= bits(enter <= leave) << c;
+        }
+        const int first_pushed = top;
+        for_each_bit(entered & 0xffu, [&](std::uint32_t c) {
+            int place = top++;
+            for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];
+            stack[place] = {node.child[c], near[c]};
+        });
+    }
+}
+
+template <Query query, FloatBatch F>
+void traverse_singles(const SceneView& scene, Packet<F>& packet, Occupancy& occupancy) {
+    hit_planes<query>(scene, packet);
+    occupancy.first_lanes += packet.count;
+    occupancy.first_active += packet.count;
+    for (std::uint32_t i = 0; i < packet.count; ++i) {
+        SingleRay<F> ray(packet, i);
+        if (scene.leaf_count != 0 && ray.t >= Scalar<F>(0)) {
+            traverse_single<query>(scene, ray, packet.axes, packet.negative);
+            packet.t[i] = ray.t;
+            packet.slot[i] = ray.slot;
+        }
+        occupancy.last_lanes += 1;
+        occupancy.last_active += ray.t >= Scalar<F>(0) ? 1u : 0u;
+    }
+}
+
+} // namespace lanecast::inline LANECAST_ISA

@@ -1,0 +1,25 @@
+#pragma once
+// 8-bit RGB PNG out, any PNG in.
+
+#include "render/film.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace lanecast {
+
+/// Interleaved 8-bit RGB, row by row from the top.
+struct Picture8 {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb; ///< 3 * width * height
+};
+
+/// With sRGB, gAMA and cHRM chunks. Equal pictures give equal bytes. Throws Error (output); see OutputFile.
+void write_png(const std::filesystem::path& path, const Picture8& picture);
+
+/// The code values divided by 255 (65535 for 16 bit): no curve is undone. Palettes and greys become RGB, alpha is ignored.
+/// Throws Error (asset).
+[[nodiscard]] Film read_png(const std::filesystem::path& path);
+
+} // namespace lanecast

@@ -1,0 +1,139 @@
+#include "render/renderer.hpp"
+
+#include "render/camera.hpp"
+#include "render/tiles.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include <x86intrin.h>
+
+namespace lanecast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Scratch = std::unique_ptr<unsigned char[], AlignedDelete>;
+
+Scratch make_scratch(std::uint64_t bytes) {
+    // Untouched pages cost nothing: deep levels that are never reached take address space only.
+    return Scratch(static_cast<unsigned char*>(::operator new[](bytes, std::align_val_t{64})));
+}
+
+void add(TileStats& sum, const TileStats& tile) {
+    for (int kind = 0; kind < ray_kind_count; ++kind) {
+        RayKindStats& to = sum.kinds[kind];
+        const RayKindStats& from = tile.kinds[kind];
+        to.rays += from.rays;
+        to.batches += from.batches;
+        to.first_lanes += from.first_lanes;
+        to.first_active += from.first_active;
+        to.last_lanes += from.last_lanes;
+        to.last_active += from.last_active;
+        to.ticks += from.ticks;
+    }
+    sum.total_ticks += tile.total_ticks;
+}
+
+std::uint64_t rays_of(const TileStats& stats) {
+    std::uint64_t rays = 0;
+    for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
+    return rays;
+}
+
+AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
+    switch (mode) {
+    case AntiAliasMode::cross: return AntiAliasKind::cross;
+    case AntiAliasMode::grid: return AntiAliasKind::grid;
+    case AntiAliasMode::edge: return AntiAliasKind::edge;
+    case AntiAliasMode::off: break;
+    }
+    return AntiAliasKind::off;
+}
+
+} // namespace
+
+RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, const FrameOptions& options) {
+    RenderJob job{};
+    job.scene = view(scene);
+    job.camera = make_camera(camera, scene.normalisation, options.width, options.height);
+    job.image_width = options.width;
+    job.image_height = options.height;
+    job.tile_size = options.tile_size;
+    job.depth = settings.depth;
+    job.cutoff = static_cast<float>(settings.cutoff);
+    job.shadows = settings.shadows ? 1 : 0;
+    job.transmissive_shadows = settings.transmissive_shadows ? 1 : 0;
+    job.schlick = settings.schlick ? 1 : 0;
+    job.brute_force = settings.bvh ? 0 : 1;
+    job.soft_samples = (scene.features & feature_soft_lights) != 0 ? settings.soft_shadows : 0;
+    job.anti_alias = anti_alias_kind(settings.anti_aliasing.mode);
+    job.samples = settings.anti_aliasing.samples;
+    job.offset = static_cast<float>(settings.anti_aliasing.offset);
+    job.offset_planes = settings.anti_aliasing.planes ? 1 : 0;
+    return job;
+}
+
+Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera, const RenderSettings& settings,
+                   const FrameOptions& options, const Progress& progress) {
+    Tile crop = options.crop;
+    if (crop.x1 <= crop.x0 || crop.y1 <= crop.y0) crop = {0, 0, options.width, options.height};
+    Frame frame;
+    frame.film = make_film(options.width, options.height, crop);
+    RenderJob job = make_job(scene, camera, settings, options);
+    job.film = view(frame.film);
+
+    const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
+    const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
+    const std::uint64_t scratch_bytes = kernels.scratch_bytes(job);
+    std::vector<Scratch> scratch;
+    for (int i = 0; i < threads; ++i) scratch.push_back(make_scratch(scratch_bytes));
+
+    std::atomic<std::size_t> next{0}, done{0};
+    std::atomic<std::uint64_t> rays{0};
+    std::mutex mutex; // of frame.stats and `finished`; taken once per worker
+    std::condition_variable all_done;
+    int finished = 0;
+    const auto work = [&](int worker) {
+        TileStats sum{};
+        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size();
+             i = next.fetch_add(1, std::memory_order_relaxed)) {
+            const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
+            add(sum, tile);
+            done.fetch_add(1, std::memory_order_relaxed);
+            rays.fetch_add(rays_of(tile), std::memory_order_relaxed);
+        }
+        const std::lock_guard lock(mutex);
+        add(frame.stats.tiles, sum);
+        ++finished;
+        all_done.notify_one();
+    };
+
+    const auto begin = Clock::now();
+    const std::uint64_t begin_ticks = __rdtsc();
+    {
+        std::vector<std::jthread> workers;
+        // without progress the caller is a worker too: one thread less to start
+        for (int i = progress ? 0 : 1; i < threads; ++i) workers.emplace_back(work, i);
+        if (progress) {
+            std::unique_lock lock(mutex);
+            while (!all_done.wait_for(lock, std::chrono::milliseconds(100), [&] { return finished == threads; })) {
+                lock.unlock();
+                progress(static_cast<double>(done.load()) / static_cast<double>(tiles.size()), rays.load());
+                lock.lock();
+            }
+        } else {
+            work(0);
+        }
+    }
+    frame.stats.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    frame.stats.ticks_per_second = static_cast<double>(__rdtsc() - begin_ticks) / frame.stats.seconds;
+    frame.stats.threads = threads;
+    return frame;
+}
+
+} // namespace lanecast

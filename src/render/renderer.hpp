@@ -1,0 +1,43 @@
+#pragma once
+// A frame: tiles on std::jthread workers.
+
+#include "render/film.hpp"
+#include "render/kernel_table.hpp"
+#include "scene/render_settings.hpp"
+#include "scene/scene_arrays.hpp"
+
+#include <functional>
+
+namespace lanecast {
+
+struct FrameOptions {
+    int width = 512, height = 512; ///< of the image, in pixels
+    Tile crop{0, 0, 0, 0};         ///< part of the image to render; empty: all of it
+    int threads = 1;
+    int tile_size = 32; ///< pixels, 1 to 64; tiles lie on the absolute pixel grid
+};
+
+struct FrameStats {
+    TileStats tiles{}; ///< summed over tiles and threads
+    int threads = 0;
+    double seconds = 0; ///< first ray to finished film
+    double ticks_per_second = 0; ///< of the time-stamp counter, measured over the frame
+};
+
+struct Frame {
+    Film film;
+    FrameStats stats;
+};
+
+/// Called from the calling thread, about ten times a second: share of the tiles done, 0 to 1, rays traced so far.
+using Progress = std::function<void(double done, std::uint64_t rays)>;
+
+/// The job a frame's kernels get, without its film.
+[[nodiscard]] RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings,
+                                 const FrameOptions& options);
+
+/// Throws std::bad_alloc.
+[[nodiscard]] Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,
+                                 const RenderSettings& settings, const FrameOptions& options, const Progress& progress = {});
+
+} // namespace lanecast

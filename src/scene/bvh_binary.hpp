@@ -1,0 +1,31 @@
+#pragma once
+// The binary tree from which the eight-wide one is collapsed.
+
+#include "scene/bvh_refs.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace lanecast {
+
+struct BinaryNode {
+    float lo[3];
+    std::uint32_t children; ///< index of the left one, the right one follows; 0: a leaf
+    float hi[3];
+    float area;                 ///< half the surface
+    std::uint32_t first, count; ///< primitives of the leaf, or of the subtree
+};
+
+[[nodiscard]] inline bool is_leaf(const BinaryNode& node) noexcept { return node.children == 0; }
+
+struct BinaryTree {
+    std::unique_ptr<BinaryNode[]> nodes; ///< root at 0; the order of the others depends on the threads, the tree does not
+};
+
+/// Reorders `refs` (1 <= count < 2^31) so that every node has a contiguous range. Leaves hold one kind and at most max_leaf_size
+/// primitives; a range becomes one where area (0.75 + 0.25 count) is no more than the cost of its subtree, whose inner nodes cost
+/// their area. At most max_bvh_depth levels of inner nodes.
+[[nodiscard]] BinaryTree build_binary(BuildRef* refs, std::size_t count, int threads);
+
+} // namespace lanecast

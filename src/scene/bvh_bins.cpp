@@ -1,0 +1,116 @@
+#include "scene/bvh_bins.hpp"
+
+#include "scene/parallel.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace lanecast {
+namespace {
+
+constexpr std::uint32_t parallel_piece = 32768; ///< primitives binned by one thread at a time
+
+struct Bins {
+    Float4 lo[3][max_bins], hi[3][max_bins];
+    std::uint32_t count[3][max_bins];
+};
+
+void clear(Bins& bins, int used) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (int b = 0; b < used; ++b) {
+            bins.lo[axis][b] = splat4(empty_lo);
+            bins.hi[axis][b] = splat4(-empty_lo);
+            bins.count[axis][b] = 0;
+        }
+}
+
+void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const BinMapping& mapping) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Float4 lo = lo_of(refs[i]), hi = hi_of(refs[i]);
+        const Int4 bin = mapping(lo + hi);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int b = bin[axis];
+            bins.lo[axis][b] = min4(bins.lo[axis][b], lo);
+            bins.hi[axis][b] = max4(bins.hi[axis][b], hi);
+            ++bins.count[axis][b];
+        }
+    }
+}
+
+void merge(Bins& bins, const Bins& other, int used) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (int b = 0; b < used; ++b) {
+            bins.lo[axis][b] = min4(bins.lo[axis][b], other.lo[axis][b]);
+            bins.hi[axis][b] = max4(bins.hi[axis][b], other.hi[axis][b]);
+            bins.count[axis][b] += other.count[axis][b];
+        }
+}
+
+/// Cheapest cut of all axes: area times count, summed over both halves.
+BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
+    BinCut best;
+    float best_cost = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        float right_area[max_bins];
+        Float4 lo = splat4(empty_lo), hi = splat4(-empty_lo);
+        for (int b = used - 1; b > 0; --b) {
+            lo = min4(lo, bins.lo[axis][b]);
+            hi = max4(hi, bins.hi[axis][b]);
+            right_area[b] = half_area(hi - lo);
+        }
+        lo = splat4(empty_lo), hi = splat4(-empty_lo);
+        std::uint32_t left = 0;
+        for (int b = 1; b < used; ++b) {
+            lo = min4(lo, bins.lo[axis][b - 1]);
+            hi = max4(hi, bins.hi[axis][b - 1]);
+            left += bins.count[axis][b - 1];
+            if (left == 0) continue;
+            if (left == total) break;
+            const float cost = half_area(hi - lo) * static_cast<float>(left) + right_area[b] * static_cast<float>(total - left);
+            if (cost < best_cost) best_cost = cost, best.axis = axis, best.bin = b, best.left_count = left;
+        }
+    }
+    if (best.axis < 0) return best;
+    for (int side = 0; side < 2; ++side) {
+        best.lo[side] = splat4(empty_lo), best.hi[side] = splat4(-empty_lo);
+        for (int b = side == 0 ? 0 : best.bin; b < (side == 0 ? best.bin : used); ++b) {
+            best.lo[side] = min4(best.lo[side], bins.lo[best.axis][b]);
+            best.hi[side] = max4(best.hi[side], bins.hi[best.axis][b]);
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+BinMapping make_bin_mapping(const BuildRange& range) {
+    BinMapping mapping;
+    mapping.bins = static_cast<int>(std::min<std::uint32_t>(max_bins, 8 + range.count / 16));
+    mapping.origin = range.centre_lo;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float extent = range.centre_hi[axis] - range.centre_lo[axis];
+        // A little less than the number of bins, so that the largest centre falls into the last one.
+        mapping.scale[axis] = extent > 1e-30f ? static_cast<float>(mapping.bins) * 0.9999f / extent : 0.0f;
+    }
+    return mapping;
+}
+
+BinCut find_bin_cut(const BuildRef* refs, const BuildRange& range, const BinMapping& mapping, int threads) {
+    Bins bins;
+    clear(bins, mapping.bins);
+    if (threads <= 1 || range.count < 2 * parallel_piece) {
+        count_into(bins, refs + range.first, range.count, mapping);
+    } else { // minima, maxima and sums of integers do not depend on the order
+        std::vector<Bins> pieces(piece_count(range.count, parallel_piece));
+        parallel_for(threads, pieces.size(), [&](std::size_t i) {
+            const auto begin = static_cast<std::uint32_t>(i) * parallel_piece;
+            clear(pieces[i], mapping.bins);
+            count_into(pieces[i], refs + range.first + begin, std::min(parallel_piece, range.count - begin), mapping);
+        });
+        for (const Bins& piece : pieces) merge(bins, piece, mapping.bins);
+    }
+    return cheapest(bins, range.count, mapping.bins);
+}
+
+} // namespace lanecast

@@ -1,0 +1,168 @@
+#include "scene/flatten.hpp"
+
+#include "scene/build_bvh.hpp"
+#include "scene/flatten_lights.hpp"
+#include "scene/flatten_materials.hpp"
+#include "scene/flatten_meshes.hpp"
+#include "scene/flatten_objects.hpp"
+#include "scene/flatten_quadrics.hpp"
+#include "scene/normalise.hpp"
+#include "scene/parallel.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace lanecast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int index_of(PrimitiveKind kind) { return static_cast<int>(kind); }
+
+/// Bounded primitives in file order, degenerate triangles taken out.
+struct Bounded {
+    BakedVertices vertices;
+    Quadrics quadrics;
+    std::unique_ptr<BuildRef[]> refs;
+    std::size_t count = 0;
+};
+
+DoubleBox bounds_of(const FlatObjects& objects, int threads) {
+    DoubleBox bounds = mesh_bounds(objects, threads);
+    for (const FlatObject& flat : objects.objects)
+        if (flat.kind != PrimitiveKind::triangle && flat.kind != PrimitiveKind::plane) include(bounds, quadric_bounds(flat));
+    return bounds;
+}
+
+Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
+    Bounded bounded;
+    bounded.vertices = bake_vertices(objects, arrays.normalisation, threads);
+    bounded.refs = std::make_unique_for_overwrite<BuildRef[]>(objects.refs);
+    arrays.degenerate_triangles = add_triangles(objects, bounded.vertices, bounded.refs.get(), threads);
+    arrays.normalisation.exact = bounded.vertices.exact;
+    for (const FlatObject& flat : objects.objects) {
+        if (flat.kind == PrimitiveKind::triangle || flat.kind == PrimitiveKind::plane) continue;
+        bounded.refs[flat.first_ref] = add_quadric(flat, arrays.normalisation, bounded.quadrics);
+        arrays.normalisation.exact = arrays.normalisation.exact && is_exact_quadric(flat, arrays.normalisation);
+    }
+    BuildRef* const begin = bounded.refs.get();
+    BuildRef* end = begin + objects.refs;
+    if (arrays.degenerate_triangles > 0) {
+        end = std::remove_if(begin, end, [](const BuildRef& ref) { return ref.source == dropped_source; });
+        arrays.warnings.push_back(std::to_string(arrays.degenerate_triangles) + " degenerate triangles were dropped");
+    }
+    bounded.count = static_cast<std::size_t>(end - begin);
+    arrays.warnings.insert(arrays.warnings.end(), bounded.quadrics.warnings.begin(), bounded.quadrics.warnings.end());
+    return bounded;
+}
+
+void number_slots(const Bounded& bounded, const FlatObjects& objects, bool with_planes, SceneArrays& arrays) {
+    std::uint32_t counts[primitive_kind_count] = {};
+    for (const FlatObject& flat : objects.objects) {
+        if (flat.kind == PrimitiveKind::triangle || (flat.kind == PrimitiveKind::plane && !with_planes)) continue;
+        ++counts[index_of(flat.kind)];
+    }
+    std::uint32_t quadrics = 0;
+    for (int kind = index_of(PrimitiveKind::sphere); kind <= index_of(PrimitiveKind::cylinder); ++kind) quadrics += counts[kind];
+    counts[index_of(PrimitiveKind::triangle)] = static_cast<std::uint32_t>(bounded.count) - quadrics;
+    for (int kind = 0; kind < primitive_kind_count; ++kind) {
+        arrays.first_slot[kind + 1] = arrays.first_slot[kind] + counts[kind];
+        if (counts[kind] > 0) arrays.features |= feature_triangles << kind;
+    }
+}
+static_assert(feature_planes == feature_triangles << static_cast<int>(PrimitiveKind::plane));
+
+/// Several large arrays at once: most of the time goes into touching fresh memory.
+void allocate_slots(SceneArrays& arrays, int threads) {
+    const std::uint32_t* first = arrays.first_slot;
+    const std::size_t slots = first[primitive_kind_count];
+    arrays.spheres.resize(first[2] - first[1]);
+    arrays.affines.resize(first[4] - first[2]);
+    arrays.affine_shading.resize(first[4] - first[2]);
+    parallel_for(threads, 4, [&](std::size_t i) {
+        if (i == 0) arrays.triangles.resize(first[1]);
+        if (i == 1) arrays.scene_id.resize(slots);
+        if (i == 2) arrays.object.resize(slots);
+        if (i == 3) arrays.material.resize(slots);
+    });
+}
+
+void set_attributes(const FlatObject& flat, const FlatMaterials& materials, std::uint32_t triangle, std::uint32_t slot,
+                    SceneArrays& arrays) {
+    arrays.scene_id[slot] = flat.first_scene_id + triangle;
+    arrays.object[slot] = flat.index;
+    arrays.material[slot] = material_of(materials, flat, triangle);
+}
+
+void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const FlatObjects& objects, const Bounded& bounded,
+               const FlatMaterials& materials, SceneArrays& arrays) {
+    const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & 7u);
+    const std::uint32_t count = static_cast<std::uint32_t>(leaf >> child_count_shift & 7u) + 1;
+    const auto slot = static_cast<std::uint32_t>(leaf);
+    const bool is_triangle = kind == PrimitiveKind::triangle;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        set_attributes(objects.objects[object_of(refs[i])], materials, is_triangle ? refs[i].item : 0, slot + i, arrays);
+        if (kind == PrimitiveKind::sphere)
+            arrays.spheres[slot + i - arrays.first_slot[1]] = bounded.quadrics.spheres[refs[i].item];
+        if (kind == PrimitiveKind::ellipsoid || kind == PrimitiveKind::cylinder) {
+            arrays.affines[slot + i - arrays.first_slot[2]] = bounded.quadrics.affines[refs[i].item];
+            arrays.affine_shading[slot + i - arrays.first_slot[2]] = bounded.quadrics.affine_shading[refs[i].item];
+        }
+    }
+    if (is_triangle)
+        write_triangle_leaf(objects, bounded.vertices, refs, count,
+                            static_cast<std::uint32_t>(leaf >> child_block_shift & 0x1ffffffu), arrays.arena.get(),
+                            &arrays.triangles[slot]);
+}
+
+void add_planes(const FlatObjects& objects, const FlatMaterials& materials, SceneArrays& arrays) {
+    const std::uint32_t first = arrays.first_slot[index_of(PrimitiveKind::plane)];
+    for (const FlatObject& flat : objects.objects) {
+        if (flat.kind != PrimitiveKind::plane) continue;
+        set_attributes(flat, materials, 0, first + static_cast<std::uint32_t>(arrays.planes.size()), arrays);
+        arrays.planes.push_back(plane_record(std::get<Plane>(flat.object->shape), arrays.normalisation));
+    }
+}
+
+} // namespace
+
+SceneArrays flatten(const SceneDescription& scene, const RenderSettings& settings, int threads) {
+    const auto start = Clock::now();
+    SceneArrays arrays;
+    const FlatObjects objects = prepare_objects(scene);
+    const DoubleBox bounds = bounds_of(objects, threads);
+    arrays.bounds_min = bounds.lo;
+    arrays.bounds_max = bounds.hi;
+    arrays.normalisation = find_normalisation(bounds, scene, settings.planes);
+    const FlatMaterials materials = flatten_materials(objects, settings);
+    arrays.materials = materials.records;
+    arrays.features |= material_features(arrays.materials);
+    flatten_lights(scene, settings, arrays);
+    const Bounded bounded = bake(objects, arrays, threads);
+    number_slots(bounded, objects, settings.planes, arrays);
+    arrays.bake_seconds = seconds_since(start);
+
+    const auto build_start = Clock::now();
+    BvhTree tree = build_bvh(bounded.refs.get(), bounded.count, arrays.first_slot, threads);
+    arrays.arena = std::move(tree.arena);
+    arrays.arena_bytes = tree.arena_bytes;
+    arrays.leaves = std::move(tree.leaves);
+    arrays.quality = tree.quality;
+    arrays.max_coordinate = tree.max_coordinate;
+    arrays.build_seconds = seconds_since(build_start);
+
+    const auto fill_start = Clock::now();
+    allocate_slots(arrays, threads);
+    constexpr std::size_t piece = 1024;
+    parallel_for(threads, piece_count(arrays.leaves.size(), piece), [&](std::size_t p) {
+        for (std::size_t i = p * piece; i < std::min(arrays.leaves.size(), (p + 1) * piece); ++i)
+            fill_leaf(arrays.leaves[i], bounded.refs.get() + tree.leaf_first_ref[i], objects, bounded, materials, arrays);
+    });
+    if (settings.planes) add_planes(objects, materials, arrays);
+    arrays.bake_seconds += seconds_since(fill_start);
+    return arrays;
+}
+
+} // namespace lanecast

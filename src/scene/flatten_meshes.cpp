@@ -1,0 +1,155 @@
+#include "scene/flatten_meshes.hpp"
+
+#include "scene/bvh_collapse.hpp"
+#include "scene/normalise.hpp"
+#include "scene/parallel.hpp"
+#include "scene/triangle_geometry.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <vector>
+
+namespace lanecast {
+namespace {
+
+constexpr std::size_t piece_size = 16384; ///< vertices or triangles that one thread takes at a time
+
+/// Part of a mesh.
+struct Piece {
+    const FlatObject* object;
+    const Mesh* mesh;
+    std::size_t begin, end;
+};
+
+template <class Count>
+std::vector<Piece> cut(const FlatObjects& objects, Count&& count) {
+    std::vector<Piece> pieces;
+    for (const FlatObject& flat : objects.objects)
+        if (const auto* mesh = std::get_if<Mesh>(&flat.object->shape))
+            for (std::size_t begin = 0; begin < count(*mesh); begin += piece_size)
+                pieces.push_back({&flat, mesh, begin, std::min(count(*mesh), begin + piece_size)});
+    return pieces;
+}
+std::vector<Piece> cut_vertices(const FlatObjects& objects) {
+    return cut(objects, [](const Mesh& mesh) { return mesh.positions.size(); });
+}
+std::vector<Piece> cut_triangles(const FlatObjects& objects) {
+    return cut(objects, [](const Mesh& mesh) { return mesh.triangles.size(); });
+}
+
+bool is_identity(const AffineTransform& t) { return t.linear == glm::dmat3(1) && t.translation == glm::dvec3(0); }
+
+/// The positions of a piece in world units.
+template <class Visit>
+void for_each_world_position(const Piece& piece, Visit&& visit) {
+    if (is_identity(piece.object->world_from_object)) {
+        for (std::size_t i = piece.begin; i < piece.end; ++i) visit(i, piece.mesh->positions[i]);
+    } else {
+        for (std::size_t i = piece.begin; i < piece.end; ++i)
+            visit(i, apply(piece.object->world_from_object, piece.mesh->positions[i]));
+    }
+}
+
+/// Vertex indices by the winding in the world.
+std::array<std::uint32_t, 3> wound(const Mesh& mesh, bool mirrored, std::uint32_t triangle) {
+    std::array<std::uint32_t, 3> v = mesh.triangles[triangle];
+    if (mirrored) std::swap(v[1], v[2]);
+    return v;
+}
+
+} // namespace
+
+DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
+    // Which vertices are used: several threads may set the same byte.
+    const auto is_used = std::make_unique<unsigned char[]>(objects.vertices);
+    const std::vector<Piece> triangles = cut_triangles(objects);
+    parallel_for(threads, triangles.size(), [&](std::size_t p) {
+        unsigned char* const own = is_used.get() + triangles[p].object->first_vertex;
+        for (std::size_t i = triangles[p].begin; i < triangles[p].end; ++i)
+            for (const std::uint32_t v : triangles[p].mesh->triangles[i])
+                std::atomic_ref(own[v]).store(1, std::memory_order_relaxed);
+    });
+    const std::vector<Piece> vertices = cut_vertices(objects);
+    std::vector<DoubleBox> boxes(vertices.size());
+    parallel_for(threads, vertices.size(), [&](std::size_t p) {
+        const unsigned char* const own = is_used.get() + vertices[p].object->first_vertex;
+        DoubleBox box;
+        for_each_world_position(vertices[p], [&](std::size_t i, const glm::dvec3& position) {
+            if (own[i]) include(box, position);
+        });
+        boxes[p] = box;
+    });
+    DoubleBox bounds;
+    for (const DoubleBox& box : boxes) include(bounds, box);
+    return bounds;
+}
+
+BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads) {
+    BakedVertices baked;
+    baked.positions = std::make_unique_for_overwrite<std::array<float, 4>[]>(objects.vertices);
+    const std::vector<Piece> pieces = cut_vertices(objects);
+    std::atomic<bool> exact = true;
+    parallel_for(threads, pieces.size(), [&](std::size_t p) {
+        std::array<float, 4>* const own = baked.positions.get() + pieces[p].object->first_vertex;
+        bool piece_exact = true;
+        for_each_world_position(pieces[p], [&](std::size_t i, const glm::dvec3& position) {
+            const glm::dvec3 n = normalised(normalisation, position);
+            piece_exact = piece_exact && is_exact(normalisation, position);
+            // + 0 makes -0 to 0: equal vertices are then equal in their bits.
+            own[i] = {static_cast<float>(n.x) + 0.0f, static_cast<float>(n.y) + 0.0f, static_cast<float>(n.z) + 0.0f, 0.0f};
+        });
+        if (!piece_exact) exact = false;
+    });
+    baked.exact = exact;
+    return baked;
+}
+
+std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads) {
+    const std::vector<Piece> pieces = cut_triangles(objects);
+    std::atomic<std::uint32_t> dropped = 0;
+    parallel_for(threads, pieces.size(), [&](std::size_t p) {
+        const Piece& piece = pieces[p];
+        const std::array<float, 4>* const positions = vertices.positions.get() + piece.object->first_vertex;
+        BuildRef* const own = refs + piece.object->first_ref;
+        const std::uint32_t source =
+            piece.object->index << source_object_shift | static_cast<std::uint32_t>(PrimitiveKind::triangle);
+        std::uint32_t piece_dropped = 0;
+        for (std::size_t i = piece.begin; i < piece.end; ++i) {
+            const auto& triangle = piece.mesh->triangles[i];
+            const float *a = positions[triangle[0]].data(), *b = positions[triangle[1]].data(),
+                        *c = positions[triangle[2]].data();
+            const Float4 va = load_xyz(a), vb = load_xyz(b), vc = load_xyz(c);
+            const Float4 lo = min4(min4(va, vb), vc), hi = max4(max4(va, vb), vc);
+            BuildRef ref;
+            std::memcpy(ref.lo, &lo, sizeof ref.lo);
+            std::memcpy(ref.hi, &hi, sizeof ref.hi);
+            ref.item = static_cast<std::uint32_t>(i);
+            ref.source = source;
+            if (is_degenerate(a, b, c)) ref.source = dropped_source, ++piece_dropped;
+            own[i] = ref;
+        }
+        dropped += piece_dropped;
+    });
+    return dropped;
+}
+
+void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
+                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records) {
+    auto* const rows = reinterpret_cast<float*>(arena + std::size_t{block_offset} * 64);
+    for (std::uint32_t lane = 0; lane < n; ++lane) {
+        const FlatObject& flat = objects.objects[object_of(refs[lane])];
+        const auto& mesh = std::get<Mesh>(flat.object->shape);
+        const auto indices = wound(mesh, is_mirroring(flat.world_from_object.linear), refs[lane].item);
+        const float* corner[3];
+        for (std::size_t v = 0; v < 3; ++v) {
+            corner[v] = vertices.positions[flat.first_vertex + indices[v]].data();
+            for (std::size_t axis = 0; axis < 3; ++axis) rows[(3 * v + axis) * n + lane] = corner[v][axis];
+        }
+        triangle_normal(corner[0], corner[1], corner[2], records[lane].normal);
+        records[lane].block = block_offset << 6 | (n - 1) << 3 | lane;
+    }
+    std::fill(rows + 9 * n, rows + 16 * block_units(n), 0.0f); // the same bytes every time
+}
+
+} // namespace lanecast

@@ -1,0 +1,35 @@
+#pragma once
+// Meshes baked to world space: vertices rounded once, triangles as references for the tree, then as blocks and records.
+
+#include "scene/bvh_refs.hpp"
+#include "scene/flatten_objects.hpp"
+#include "scene/scene_arrays.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace lanecast {
+
+/// Bounds of the vertices that triangles use, of all meshes, in world units.
+[[nodiscard]] DoubleBox mesh_bounds(const FlatObjects& objects, int threads);
+
+/// Normalised float vertices of all meshes, at FlatObject::first_vertex.
+struct BakedVertices {
+    std::unique_ptr<std::array<float, 4>[]> positions; ///< the fourth is 0
+    bool exact = true;                                 ///< no coordinate was rounded by the centring
+};
+
+[[nodiscard]] BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads);
+
+/// Writes the references of all triangles, at FlatObject::first_ref, and returns how many are degenerate: those have
+/// source == dropped_source.
+[[nodiscard]] std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads);
+inline constexpr std::uint32_t dropped_source = 0xffffffffu;
+
+/// Writes the block of n triangles at `block`, 64-byte units * block_units(n) of it, and their records. Mirroring transforms flip
+/// the winding.
+void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
+                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records);
+
+} // namespace lanecast

@@ -1,0 +1,118 @@
+#include "scene/load_parts.hpp"
+
+#include "scene/mesh_file.hpp"
+
+#include <utility>
+
+namespace lanecast {
+namespace {
+
+/// `triangles`: [[[x, y, z], [x, y, z], [x, y, z]], ...]
+Mesh load_triangles(const SceneReader& reader, NodeId list) {
+    const std::vector<JsonNode>& nodes = reader.document.nodes;
+    const auto check_list = [&](NodeId node, const char* wanted) {
+        if (nodes[node].kind != JsonKind::list || nodes[node].count != 3)
+            fail(reader, node, std::string("must be ") + wanted + ", got " + shown(reader, node));
+    };
+    const auto coordinate = [&](NodeId node) {
+        if (nodes[node].kind != JsonKind::number) fail(reader, node, "must be a number, got " + shown(reader, node));
+        const double value = nodes[node].number;
+        if (!(value >= -largest_magnitude && value <= largest_magnitude))
+            fail(reader, node, "must be a number between -1e30 and 1e30, got " + shown(reader, node));
+        return value;
+    };
+    Mesh out;
+    if (nodes[list].count > max_mesh_elements / 3) fail(reader, list, "too many triangles", ExitCode::memory);
+    out.positions.reserve(std::size_t{nodes[list].count} * 3);
+    out.triangles.reserve(nodes[list].count);
+    for (NodeId triangle = list + 1; triangle < nodes[list].next; triangle = nodes[triangle].next) {
+        check_list(triangle, "a triangle of three points [[x, y, z], [x, y, z], [x, y, z]]");
+        const auto first = static_cast<std::uint32_t>(out.positions.size());
+        for (NodeId point = triangle + 1; point < nodes[triangle].next; point = nodes[point].next) {
+            check_list(point, "a point [x, y, z]");
+            NodeId at = point + 1;
+            glm::dvec3 position;
+            for (int axis = 0; axis < 3; ++axis, at = nodes[at].next) position[axis] = coordinate(at);
+            out.positions.push_back(position);
+        }
+        out.triangles.push_back({first, first + 1, first + 2});
+    }
+    return out;
+}
+
+Mesh load_mesh_file(SceneReader& reader, NodeId node, const Material& material) {
+    const std::string file(text_of(reader.document, node));
+    if (file.empty() || file.find('\0') != std::string::npos)
+        fail(reader, node, "must be the name of a mesh file, got " + shown(reader, node));
+    const auto asked_by = [&] { return "\n" + message_at(reader, node, "note", "asks for this file"); };
+    std::vector<std::string> warnings;
+    try {
+        Mesh out = read_mesh(reader.directory / file, material, warnings);
+        out.file = file;
+        for (std::string& warning : warnings) reader.mesh_warnings.push_back(std::move(warning) + asked_by());
+        return out;
+    } catch (const Error& error) {
+        throw Error(error.code(), error.what() + asked_by());
+    }
+}
+
+Mesh load_mesh(SceneReader& reader, const Block& block, const Material& material) {
+    const NodeId triangles = block.find("triangles");
+    const NodeId file = block.find("file");
+    if (triangles != no_node && file != no_node) fail(reader, file, "a mesh has `triangles` or a `file`, not both");
+    if (triangles == no_node && file == no_node) fail(reader, block.node(), "a mesh needs `triangles` or a `file`");
+    if (file == no_node && !block.has("material")) fail(reader, block.node(), "lacks the key `material`");
+    Mesh out = triangles != no_node ? load_triangles(reader, triangles) : load_mesh_file(reader, file, material);
+    return out;
+}
+
+Object load_object(SceneReader& reader, NodeId node) {
+    const BlockSpec& spec = spec_by_type(reader, node, format::shapes);
+    const Block block(reader, node, spec);
+    Object out;
+    block.read("name", out.name);
+    if (block.has("material")) out.material = load_material(reader, block.find("material"));
+    if (spec.name == "sphere") {
+        Sphere sphere;
+        block.read("radius", sphere.radius);
+        block.read("position", sphere.position);
+        out.shape = sphere;
+    } else if (spec.name == "cylinder") {
+        Cylinder cylinder;
+        block.read("radius", cylinder.radius);
+        block.read("height", cylinder.height);
+        out.shape = cylinder;
+    } else if (spec.name == "plane") {
+        Plane plane;
+        block.read("position", plane.position);
+        block.read("normal", plane.normal);
+        out.shape = plane;
+    } else {
+        out.shape = load_mesh(reader, block, out.material);
+    }
+    if (block.has("transformations")) out.transformations = load_transformations(reader, block.find("transformations"));
+    return out;
+}
+
+} // namespace
+
+Material load_material(SceneReader& reader, NodeId node) {
+    const Block block(reader, node, format::material);
+    Material out;
+    block.read("ambient", out.ambient);
+    block.read("diffuse", out.diffuse);
+    block.read("specular", out.specular);
+    block.read("reflective", out.reflective);
+    block.read("transmissive", out.transmissive);
+    block.read("shininess", out.shininess);
+    block.read("refraction", out.refraction);
+    return out;
+}
+
+std::vector<Object> load_objects(SceneReader& reader, NodeId list) {
+    std::vector<Object> out;
+    for (const NodeId node : items(reader, list)) out.push_back(load_object(reader, node));
+    return out;
+}
+
+} // namespace lanecast

@@ -1,0 +1,132 @@
+// The tree over whole scenes: complete, conservative, ordered, bounded in depth, the same for any number of threads.
+
+#include "scene/bvh_quality.hpp"
+#include "scene/geometry_support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace lanecast;
+using namespace lanecast::test;
+
+namespace {
+
+Object sphere_at(const glm::dvec3& position, double radius) {
+    Object object;
+    object.shape = Sphere{radius, position};
+    return object;
+}
+
+Object triangles_in_cube(Random& random, int count, double size) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 p = random.point(1);
+        triangles.push_back({p, p + random.point(size), p + random.point(size)});
+    }
+    Object object;
+    object.shape = triangle_mesh(triangles);
+    return object;
+}
+
+} // namespace
+
+TEST_CASE("every primitive is in one leaf and inside every box above it") {
+    Random random(1);
+    int mixed = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const SceneDescription scene = random_scene(random, 1 + random.below(i % 10 == 0 ? 300 : 40));
+        const SceneArrays arrays = flatten(scene, scene.render, 1);
+        INFO("scene " << i);
+        REQUIRE(check_tree(arrays) == "");
+        mixed += (arrays.features & feature_triangles) != 0 && (arrays.features & feature_spheres) != 0 ? 1 : 0;
+    }
+    CHECK(mixed > 300);
+}
+
+TEST_CASE("a hundred thousand random triangles, within the memory promised") {
+    Random random(2);
+    SceneDescription scene;
+    scene.objects.push_back(triangles_in_cube(random, 100000, 0.02));
+    const SceneArrays arrays = flatten(scene, scene.render, 2);
+    CHECK(check_tree(arrays) == "");
+    CHECK(memory_bytes(arrays) < 100 * 100000);
+    CHECK(arrays.quality.depth < 14);
+    CHECK(arrays.quality.sah_cost < 110);
+}
+
+TEST_CASE("a tenth of a million equal spheres, and one primitive, and none") {
+    SceneDescription scene;
+    CHECK(check_tree(flatten(scene, scene.render, 2)) == "");
+    scene.objects.push_back(sphere_at({1, 2, 3}, 0.5));
+    const SceneArrays one = flatten(scene, scene.render, 1);
+    CHECK(check_tree(one) == "");
+    CHECK(one.quality.nodes == 1);
+    CHECK(one.quality.leaves == 1);
+    for (int i = 1; i < 100000; ++i) scene.objects.push_back(scene.objects[0]);
+    const SceneArrays many = flatten(scene, scene.render, 2);
+    CHECK(check_tree(many) == "");
+    CHECK(many.quality.depth <= 17);
+}
+
+TEST_CASE("the same bytes for one to four threads") {
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+        const SceneDescription scene = random_scene(random, 200);
+        const SceneArrays one = flatten(scene, scene.render, 1);
+        for (int threads = 2; threads <= 4; ++threads) REQUIRE(difference(one, flatten(scene, scene.render, threads)) == "");
+    }
+    SceneDescription scene = random_scene(random, 300); // large enough for shared binning and for tasks
+    scene.objects.push_back(triangles_in_cube(random, 150000, 0.05));
+    scene.objects.push_back(triangles_in_cube(random, 30000, 0.5));
+    const SceneArrays one = flatten(scene, scene.render, 1);
+    CHECK(check_tree(one) == "");
+    for (int threads = 2; threads <= 4; ++threads) CHECK(difference(one, flatten(scene, scene.render, threads)) == "");
+}
+
+TEST_CASE("depth is bounded where area heuristics peel off one primitive at a time") {
+    for (const double ratio : {0.9, 0.5, 0.25}) {
+        SceneDescription scene; // each sphere at a fixed ratio of the distance of the one before
+        double x = 1;
+        for (int i = 0; i < 5000; ++i, x *= ratio) {
+            if (x < 0x1p-55) x = 1;
+            scene.objects.push_back(sphere_at({x, 0, 0}, 0.1 * x));
+        }
+        const SceneArrays arrays = flatten(scene, scene.render, 1);
+        CHECK(check_tree(arrays) == "");
+        CHECK(arrays.quality.depth <= max_bvh_depth);
+    }
+}
+
+TEST_CASE("quality of trees made by hand") {
+    SceneDescription scene;
+    scene.objects.push_back(sphere_at({0, 0, 0}, 1));
+    const SceneArrays one = flatten(scene, scene.render, 1);
+    CHECK(one.quality.sah_cost == doctest::Approx(2)); // one node, one test
+    CHECK(one.quality.overlapping_share == 0);
+    CHECK(one.quality.leaf_sizes[1] == 1);
+
+    scene.objects.push_back(sphere_at({98, 0, 0}, 1)); // boxes of edge 2 in one of 100 x 2 x 2
+    const SceneArrays two = flatten(scene, scene.render, 1);
+    CHECK(two.quality.leaves == 2);
+    CHECK(two.quality.sah_cost == doctest::Approx(1 + 2 * 12.0 / 404).epsilon(1e-3));
+
+    BvhNode node{};
+    for (int i = 0; i < 8; ++i)
+        for (int axis = 0; axis < 3; ++axis) node.lo[axis][i] = 1e30f, node.hi[axis][i] = -1e30f;
+    CHECK_FALSE(children_overlap(node));
+    const auto set = [&node](int i, float lo, float hi, float top) {
+        node.lo[0][i] = lo, node.hi[0][i] = hi;
+        node.lo[1][i] = 0, node.hi[1][i] = 1;
+        node.lo[2][i] = 0, node.hi[2][i] = top;
+    };
+    set(0, 0, 4, 1);
+    set(5, 3.5f, 4.5f, 1); // half of it inside: not more than half
+    CHECK_FALSE(children_overlap(node));
+    set(5, 3.25f, 4.25f, 1);
+    CHECK(children_overlap(node));
+    set(5, 3.25f, 4.25f, 0); // flat, and three quarters of its area inside
+    CHECK(children_overlap(node));
+    set(5, 4.25f, 5, 0);
+    CHECK_FALSE(children_overlap(node));
+}
