@@ -8,7 +8,8 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 
 namespace lanecast {
 namespace {
@@ -52,18 +53,21 @@ struct ChannelNames {
 }
 
 [[nodiscard]] Film read_film(const std::filesystem::path& path) {
-    Imf::InputFile file(path.c_str(), 0);
-    const Imath::Box2i& data = file.header().dataWindow();
-    const ChannelNames names = find_channels(path, file.header().channels());
-    Film film = make_film_of(path, file.header().displayWindow(), data);
+    // In this order, since opening a part takes memory by the header's width.
+    Imf::MultiPartInputFile file(path.c_str(), 0);
+    const Imf::Header& header = file.header(0);
+    const Imath::Box2i& data = header.dataWindow();
+    const ChannelNames names = find_channels(path, header.channels());
+    Film film = make_film_of(path, header.displayWindow(), data);
+    Imf::InputPart part(file, 0);
     // One slice per channel of the file: a Y is read once and copied.
     const bool grey = names.rgb[0] == names.rgb[1];
     Imf::FrameBuffer pixels; // FLOAT slices: the library widens halves
     for (std::size_t c = 0; c < (grey ? 1 : 3); ++c)
         pixels.insert(names.rgb[c], Imf::Slice::Make(Imf::FLOAT, film.rgb[c].data(), data, sizeof(float),
                                                      sizeof(float) * static_cast<std::size_t>(film.width)));
-    file.setFrameBuffer(pixels);
-    file.readPixels(data.min.y, data.max.y);
+    part.setFrameBuffer(pixels);
+    part.readPixels(data.min.y, data.max.y);
     if (grey) film.rgb[1] = film.rgb[2] = film.rgb[0];
     return film;
 }
