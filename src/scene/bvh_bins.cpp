@@ -86,7 +86,7 @@ BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
 
 BinMapping make_bin_mapping(const BuildRange& range) {
     BinMapping mapping;
-    mapping.bins = static_cast<int>(std::min<std::uint32_t>(max_bins, 8 + range.count / 16));
+    mapping.bins = static_cast<int>(std::min<std::uint32_t>(max_bins, 4 + range.count / 8));
     mapping.origin = range.centre_lo;
     for (int axis = 0; axis < 3; ++axis) {
         const float extent = range.centre_hi[axis] - range.centre_lo[axis];
