@@ -12,11 +12,7 @@ using namespace lanecast::test;
 
 namespace {
 
-Object sphere_at(const glm::dvec3& position, double radius) {
-    Object object;
-    object.shape = Sphere{radius, position};
-    return object;
-}
+Object sphere_at(const glm::dvec3& position, double radius) { return make_object(Sphere{radius, position}); }
 
 Object triangles_in_cube(Random& random, int count, double size) {
     std::vector<std::array<glm::dvec3, 3>> triangles;
@@ -24,9 +20,7 @@ Object triangles_in_cube(Random& random, int count, double size) {
         const glm::dvec3 p = random.point(1);
         triangles.push_back({p, p + random.point(size), p + random.point(size)});
     }
-    Object object;
-    object.shape = triangle_mesh(triangles);
-    return object;
+    return make_object(triangle_mesh(triangles));
 }
 
 } // namespace
