@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -95,7 +96,9 @@ BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& nor
         bool piece_exact = true;
         for_each_world_position(pieces[p], [&](std::size_t i, const glm::dvec3& position) {
             const glm::dvec3 n = normalised(normalisation, position);
-            piece_exact = piece_exact && is_exact(normalisation, position);
+            // Vertices that no triangle uses may lie outside [-1, 1], and do not count there.
+            if (piece_exact && !is_exact(normalisation, position))
+                piece_exact = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) > 1;
             // + 0 makes -0 to 0: equal vertices are then equal in their bits.
             own[i] = {static_cast<float>(n.x) + 0.0f, static_cast<float>(n.y) + 0.0f, static_cast<float>(n.z) + 0.0f, 0.0f};
         });
