@@ -88,7 +88,7 @@ DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
 
 BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads) {
     BakedVertices baked;
-    baked.positions = std::make_unique_for_overwrite<std::array<float, 4>[]>(objects.vertices);
+    baked.positions = make_scratch<std::array<float, 4>>(objects.vertices);
     const std::vector<Piece> pieces = cut_vertices(objects);
     std::atomic<bool> exact = true;
     parallel_for(threads, pieces.size(), [&](std::size_t p) {
