@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <new>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -67,6 +68,8 @@ void insert_attribute(Imf::Header& header, const std::string& name, double value
 
 /// OpenEXR's pool belongs to the process and starts empty; it is grown, never shrunk, so that films can be written concurrently.
 void ensure_pool(int threads) {
+    static std::mutex growing;
+    const std::lock_guard lock(growing);
     if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
 }
 
