@@ -45,6 +45,11 @@ std::uint64_t rays_of(const TileStats& stats) {
     return rays;
 }
 
+// Edge traces the border of a tile too.
+PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
+    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
+}
+
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
     switch (mode) {
     case AntiAliasMode::cross:
@@ -90,6 +95,10 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     frame.film = make_film(options.width, options.height, crop);
     RenderJob job = make_job(scene, camera, settings, options);
     job.film = view(frame.film);
+    const PixelOrder order = pixel_order(settings, options);
+    job.pixel_order[0] = order.x.data();
+    job.pixel_order[1] = order.y.data();
+    job.pixel_order_count = order.count;
 
     const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
     const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
