@@ -50,10 +50,14 @@ PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& optio
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
     switch (mode) {
-    case AntiAliasMode::cross: return AntiAliasKind::cross;
-    case AntiAliasMode::grid: return AntiAliasKind::grid;
-    case AntiAliasMode::edge: return AntiAliasKind::edge;
-    case AntiAliasMode::off: break;
+    case AntiAliasMode::cross:
+        return AntiAliasKind::cross;
+    case AntiAliasMode::grid:
+        return AntiAliasKind::grid;
+    case AntiAliasMode::edge:
+        return AntiAliasKind::edge;
+    case AntiAliasMode::off:
+        break;
     }
     return AntiAliasKind::off;
 }
@@ -105,9 +109,10 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     std::mutex mutex; // of frame.stats and `finished`; taken once per worker
     std::condition_variable all_done;
     int finished = 0;
+    const auto stopped = [&] { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); };
     const auto work = [&](int worker) {
         TileStats sum{};
-        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size();
+        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size() && !stopped();
              i = next.fetch_add(1, std::memory_order_relaxed)) {
             const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
             add(sum, tile);
@@ -140,6 +145,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     frame.stats.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     frame.stats.ticks_per_second = static_cast<double>(__builtin_ia32_rdtsc() - begin_ticks) / frame.stats.seconds;
     frame.stats.threads = threads;
+    frame.complete = done.load() == tiles.size();
     return frame;
 }
 
