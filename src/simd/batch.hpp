@@ -425,7 +425,7 @@ LANECAST_INLINE Int<F> expand_load_int(const std::int32_t* p, Mask<F> mask) {
 template <class Body>
 LANECAST_INLINE void for_each_bit(std::uint32_t b, Body&& body) {
     while (b != 0) {
-        body(static_cast<std::uint32_t>(std::countr_zero(b)));
+        body(lowest_bit(b));
         b &= b - 1;
     }
 }
@@ -440,7 +440,7 @@ LANECAST_INLINE void for_each_unique(Int<F> values, Mask<F> active, Body&& body)
         store(lane, values);
         std::uint32_t left = bits(active);
         while (left != 0) {
-            const std::int32_t value = lane[std::countr_zero(left)];
+            const std::int32_t value = lane[lowest_bit(left)];
             const Mask<F> lanes = (values == Int<F>(value)) & mask_from_bits<F>(left);
             body(value, lanes);
             left &= ~bits(lanes);
