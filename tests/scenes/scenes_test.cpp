@@ -150,3 +150,16 @@ TEST_CASE("each feature's scene shows its feature: without it the picture is ano
         CHECK(changed_pixels(with_it, render_small(scene, scene.render)) > 64 * 36 / 50);
     }
 }
+
+TEST_CASE("the README's scene loads strictly and shows something") {
+    const std::string readme = text_of(LANECAST_SOURCE_DIR "/README.md");
+    const std::string fence = "```json\n";
+    const std::size_t begin = readme.find(fence);
+    REQUIRE(begin != std::string::npos);
+    const std::string text = readme.substr(begin + fence.size(), readme.find("```", begin + fence.size()) - begin - fence.size());
+    const LoadedScene scene = parse_scene(text, "README.md", LANECAST_SOURCE_DIR "/scenes", {.strict = true});
+    const PixelCounts counts =
+        count_pixels(render_small(scene.description, scene.description.render), scene.description.camera.background);
+    CHECK(counts.not_finite == 0);
+    CHECK(counts.background < 64 * 36 / 2);
+}
