@@ -11,8 +11,6 @@
 #include <new>
 #include <thread>
 
-#include <x86intrin.h>
-
 namespace lanecast {
 namespace {
 
@@ -128,7 +126,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     };
 
     const auto begin = Clock::now();
-    const std::uint64_t begin_ticks = __rdtsc();
+    const std::uint64_t begin_ticks = __builtin_ia32_rdtsc();
     {
         std::vector<std::jthread> workers;
         // without progress the caller is a worker too: one thread less to start
@@ -145,7 +143,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
         }
     }
     frame.stats.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    frame.stats.ticks_per_second = static_cast<double>(__rdtsc() - begin_ticks) / frame.stats.seconds;
+    frame.stats.ticks_per_second = static_cast<double>(__builtin_ia32_rdtsc() - begin_ticks) / frame.stats.seconds;
     frame.stats.threads = threads;
     frame.complete = done.load() == tiles.size();
     return frame;
