@@ -1,5 +1,6 @@
 #include "render/pick.hpp"
 
+#include "render/tiles.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
@@ -24,6 +25,11 @@ PixelTrace trace_pixel(const KernelTable& kernels, const SceneArrays& scene, con
                        const FrameOptions& options, int x, int y) {
     RenderJob job = make_job(scene, camera, settings, options);
     job.anti_alias = AntiAliasKind::off;
+    job.tile_size = 1;
+    const PixelOrder order = morton_order(1);
+    job.pixel_order[0] = order.x.data();
+    job.pixel_order[1] = order.y.data();
+    job.pixel_order_count = order.count;
     const Tile pixel{x, y, x + 1, y + 1};
     Film film = make_film(options.width, options.height, pixel);
     job.film = view(film);
