@@ -74,7 +74,14 @@ void sort_small(const float* keys, std::uint32_t count, std::uint8_t* order) {
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-/// All cuts along all axes, and between kinds where they are mixed. Cost as of two leaves: area times (3 + count).
+/// What `count` primitives will cost per area, in quarters: 3 for each leaf they need, 1 for each of them. Kinds never share a
+/// leaf.
+float expected_cost(std::uint32_t count, std::uint32_t kinds) {
+    const std::uint32_t more_kinds = (kinds & (kinds - 1)) == 0 ? 0 : static_cast<std::uint32_t>(std::popcount(kinds)) - 1;
+    return static_cast<float>(3 * ((count + max_leaf_size - 1) / max_leaf_size + more_kinds) + count);
+}
+
+/// All cuts along all axes, and between kinds where they are mixed.
 void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]) {
     const std::uint32_t count = range.count;
     BuildRef* const own = refs + range.first;
@@ -93,20 +100,22 @@ void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]
     std::uint32_t best_left = count / 2; // should no cost be a number
     for (int way = 0; way < ways; ++way) {
         sort_small(keys[way], count, order[way]);
-        float right_area[sweep_limit];
+        float right_cost[sweep_limit];
+        std::uint32_t kinds = 0;
         Float4 box_lo = splat4(empty_lo), box_hi = splat4(-empty_lo);
         for (std::uint32_t i = count - 1; i > 0; --i) {
             box_lo = min4(box_lo, lo[order[way][i]]);
             box_hi = max4(box_hi, hi[order[way][i]]);
-            right_area[i] = half_area(box_hi - box_lo);
+            kinds |= 1u << kind_of(own[order[way][i]]);
+            right_cost[i] = half_area(box_hi - box_lo) * expected_cost(count - i, kinds);
         }
         box_lo = splat4(empty_lo), box_hi = splat4(-empty_lo);
+        kinds = 0;
         for (std::uint32_t i = 1; i < count; ++i) {
             box_lo = min4(box_lo, lo[order[way][i - 1]]);
             box_hi = max4(box_hi, hi[order[way][i - 1]]);
-            const float cost =
-                half_area(box_hi - box_lo) * static_cast<float>(3 + i) + right_area[i] * static_cast<float>(3 + count - i);
-            if (way == 3 && keys[3][order[3][i]] == keys[3][order[3][i - 1]]) continue; // cuts through a kind gain nothing here
+            kinds |= 1u << kind_of(own[order[way][i - 1]]);
+            const float cost = half_area(box_hi - box_lo) * expected_cost(i, kinds) + right_cost[i];
             if (cost < best_cost) best_cost = cost, best_way = way, best_left = i;
         }
     }

@@ -52,7 +52,8 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const st
     reader.document.source = text;
     if (!parse_json(reader.document)) fail_syntax(reader);
     if (reader.document.trailing_text && options.strict)
-        throw Error(ExitCode::scene, format_diagnostic(reader.name, text, find_trailing_text(text), "error", trailing_message));
+        throw Error(ExitCode::scene, format_diagnostic(reader.name, text, find_trailing_text(text), "error",
+                                                       trailing_message + std::string(strict_suffix)));
 
     LoadedScene out;
     out.description.file = name;
@@ -62,7 +63,6 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const st
     out.description.objects = load_objects(reader, scene.find("objects"));
     out.description.lights = load_lights(reader, scene.find("lights"));
     out.warnings = formatted_warnings(reader);
-    if (options.strict && !out.warnings.empty()) throw Error(ExitCode::asset, out.warnings.front());
     return out;
 }
 

@@ -23,7 +23,7 @@ constexpr std::string_view skipped[] = {
 struct ObjReader {
     TextCursor cursor;
     std::filesystem::path directory;
-    std::vector<std::string>& warnings;
+    MeshWarnings& warnings;
     Mesh mesh = {};
     MaterialLibrary library = {};
     std::uint32_t material = 0; ///< current, index into library.materials
@@ -33,7 +33,8 @@ struct ObjReader {
     std::vector<std::uint32_t> corners = {}; ///< of the face being read
 
     void warn(const char* place, const std::string& what) {
-        if (warnings.size() < max_mesh_warnings) warnings.push_back(cursor.message(place, "warning", what));
+        if (warnings.strict) cursor.fail(place, what + std::string(strict_suffix));
+        if (warnings.messages.size() < max_mesh_warnings) warnings.messages.push_back(cursor.message(place, "warning", what));
     }
 
     void read_vertex() {
@@ -91,8 +92,10 @@ struct ObjReader {
     void read_library(const char* place, std::string_view file_name) {
         const std::filesystem::path file = directory / file_name;
         FileBytes bytes;
-        if (file_name.find('\0') == std::string_view::npos) bytes = read_file(file);
-        else bytes.fault = "Invalid name";
+        if (file_name.find('\0') == std::string_view::npos)
+            bytes = read_file(file);
+        else
+            bytes.fault = "Invalid name";
         if (!bytes.fault.empty()) {
             library_missing = true;
             warn(place, "cannot read the materials `" + printable(file_name) + "`: " + bytes.fault);
@@ -138,7 +141,7 @@ struct ObjReader {
 } // namespace
 
 Mesh read_obj(std::string_view text, const std::string& name, const std::filesystem::path& directory, const Material& base,
-              std::vector<std::string>& warnings) {
+              MeshWarnings& warnings) {
     ObjReader reader{.cursor = {.text = text, .name = name}, .directory = directory, .warnings = warnings};
     reader.library.materials.push_back(base);
     for (; reader.cursor.at != reader.cursor.end; reader.cursor.skip_statement()) reader.read_statement();

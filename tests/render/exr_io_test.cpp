@@ -268,15 +268,15 @@ TEST_CASE("what is no EXR, or half a one, is an asset error that names the file"
         put(path, whole.substr(0, size));
         check_fails();
     }
-    // A data window of 2^29 columns or lines in a file of some kilobytes: refused before memory is taken for it.
+    // A data window of 2^24 columns or lines in a file of some kilobytes: refused before memory is taken for it.
     const std::size_t window = whole.find("dataWindow") + std::string("dataWindow.box2i.....").size();
     for (const std::size_t corner : {8u, 12u}) { // of its 16 bytes, x or y of the lower right corner
         std::string liar = whole;
-        liar[window + corner + 3] = 0x1f;
+        liar[window + corner + 3] = 1;
         put(path, liar);
         const rusage before = usage();
         check_fails();
-        CHECK(usage().ru_maxrss - before.ru_maxrss < 300000); // KiB
+        CHECK(usage().ru_maxrss - before.ru_maxrss < 100000); // KiB
     }
     // Bytes changed anywhere: an error or a picture, no crash.
     std::mt19937 random(6);

@@ -67,7 +67,7 @@ void list_pixels(PixelBatch<F>& pixels, const RenderJob& job, const Tile& region
         const Mask<F> wanted = (Int<F>(w) > x) & (Int<F>(h) > y) & first_lanes<F>(job.pixel_order_count - i);
         compress_store_int<F>(pixels.x + n, x + x0, wanted);
         compress_store_int<F>(pixels.y + n, y + y0, wanted);
-        n += static_cast<std::uint32_t>(std::popcount(bits(wanted)));
+        n += count_bits(bits(wanted));
     }
     pixels.count = n;
     for (std::uint32_t i = 0; i < n; i += width<F>) {

@@ -56,7 +56,7 @@ std::uint32_t gather_packet(TraceScratch<F>& scratch, const RayBatch<F>& rays, s
         const Mask<F> mask = (load_int<F>(scratch.keys + i) == Int<F>(key)) & first_lanes<F>(n - i);
         const std::uint32_t lanes = bits(mask);
         if (lanes == 0) continue;
-        const auto taken = static_cast<std::uint32_t>(std::popcount(lanes));
+        const auto taken = count_bits(lanes);
         if (count + taken > Packet<F>::capacity) break;
         const bool whole = lanes == all_lanes<F>;
         for (int axis = 0; axis < 3; ++axis) {

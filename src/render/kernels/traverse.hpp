@@ -124,7 +124,7 @@ void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force
     for_each_bit(last, [&](std::uint32_t vector) {
         const std::uint32_t i = vector * width<F>;
         occupancy.last_lanes += width<F>;
-        occupancy.last_active += static_cast<std::uint64_t>(std::popcount(bits(load<F>(packet.t + i) >= F(0))));
+        occupancy.last_active += count_bits(bits(load<F>(packet.t + i) >= F(0)));
     });
 }
 

@@ -96,7 +96,7 @@ struct Spawn {
         if (queue.seed != nullptr)
             compress_store_int<F>(queue.seed + n, multiply_add(load_int<F>(parents.seed + i), 747796405u, seed_step), traced);
         if (queue.record != nullptr) compress_store_int<F>(queue.record + n, load_int<F>(parents.record + i), traced);
-        queue.count += static_cast<std::uint32_t>(std::popcount(children.traced[v]));
+        queue.count += count_bits(children.traced[v]);
     }
 };
 
