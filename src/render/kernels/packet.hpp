@@ -88,7 +88,8 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
     // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
     for (std::uint32_t i = 0; i < padded; i += W) {
         const F limit(std::numeric_limits<S>::max());
-        Mask<F> valid = abs(load<F>(packet.dir[packet.axes.kz] + i)) > F(0);
+        const F t = load<F>(packet.t + i);
+        Mask<F> valid = (abs(load<F>(packet.dir[packet.axes.kz] + i)) > F(0)) & (t == t);
         for (int axis = 0; axis < 3; ++axis) {
             valid = valid & (abs(load<F>(packet.org[axis] + i)) <= limit) & (abs(load<F>(packet.dir[axis] + i)) <= limit);
         }
