@@ -80,6 +80,11 @@ class Mesh:
                 self.materials.append("")
 
 
+def rounded(p):
+    """So that the last bit of this machine's sine is not seen in the files."""
+    return tuple(round(c, 6) + 0.0 for c in p)
+
+
 def write_ply(path, mesh, comment, binary=True):
     """Polygons as they are; 16-bit indices where they suffice."""
     index, code = ("ushort", "H") if len(mesh.points) <= 65536 else ("uint", "I")
@@ -87,10 +92,10 @@ def write_ply(path, mesh, comment, binary=True):
               f"element vertex {len(mesh.points)}\nproperty float x\nproperty float y\nproperty float z\n"
               f"element face {len(mesh.faces)}\nproperty list uchar {index} vertex_indices\nend_header\n")
     if binary:
-        body = b"".join(struct.pack("<3f", *p) for p in mesh.points)
+        body = b"".join(struct.pack("<3f", *rounded(p)) for p in mesh.points)
         body += b"".join(struct.pack(f"<B{len(f)}{code}", len(f), *f) for f in mesh.faces)
     else:
-        lines = [" ".join(f"{c:.6f}" for c in p) for p in mesh.points]
+        lines = [" ".join(f"{c:.6f}" for c in rounded(p)) for p in mesh.points]
         lines += [" ".join(map(str, [len(f)] + f)) for f in mesh.faces]
         body = ("\n".join(lines) + "\n").encode()
     path.write_bytes(header.encode() + body)
@@ -101,7 +106,7 @@ def write_obj(path, mesh, comment, colours, relative=False):
     lines = [f"# {comment}", f"mtllib {path.stem}.mtl"]
     number, written = {}, {}
     for p in mesh.points:
-        text = " ".join(f"{c:.5g}" for c in p)
+        text = " ".join(f"{c:.5g}" for c in rounded(p))
         if text not in written:
             written[text] = len(written) + 1
             lines.append("v " + text)
