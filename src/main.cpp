@@ -21,6 +21,8 @@ int run(int argc, char** argv) {
     Command command;
     add_render(app, command);
     add_check(app, command);
+    add_info(app, command);
+    add_pick(app, command);
     add_diff(app, command);
     describe_usage(app);
     try {

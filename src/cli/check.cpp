@@ -4,7 +4,6 @@
 #include "cli/frame_request.hpp"
 #include "cli/print.hpp"
 #include "scene/error.hpp"
-#include "scene/flatten.hpp"
 #include "scene/text_tools.hpp"
 
 #include <memory>
@@ -14,10 +13,6 @@
 namespace lanecast {
 namespace {
 
-std::string counted(std::size_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 int check(const FrameRequest& request) {
     RequestedScene scene = load_requested(request);
     static_cast<void>(flatten_requested(request, scene)); // finds what only the arrays show: range, ill-conditioned transforms
@@ -25,7 +20,7 @@ int check(const FrameRequest& request) {
     const SceneDescription& description = scene.description;
     print_result(printable(request.scene, 4096) + ": ok, " + counted(description.objects.size(), "object") + ", " +
                  counted(description.lights.size(), "light") +
-                 (scene.warnings > 0 ? ", " + counted(static_cast<std::size_t>(scene.warnings), "warning") : "") + "\n");
+                 (scene.warnings.empty() ? "" : ", " + counted(scene.warnings.size(), "warning")) + "\n");
     return static_cast<int>(ExitCode::done);
 }
 

@@ -26,20 +26,19 @@ void add_scene_options(CLI::App& command, FrameRequest& request) {
 }
 
 void add_frame_options(CLI::App& command, FrameRequest& request) {
+    const auto set_size = [&request](const std::string& text) { request.size = parse_size("--size", text); };
     command
-        .add_option_function<std::string>(
-            "--size", [&request](const std::string& text) { request.size = parse_size("--size", text); },
-            "Size of the image in pixels; default: the scene's `resolution`")
+        .add_option_function<std::string>("--size", set_size, "Size of the image in pixels; default: the scene's `resolution`")
         ->type_name("WxH");
-    command
-        .add_option_function<std::string>(
-            "--threads",
-            [&request](const std::string& text) {
-                request.threads = static_cast<int>(parse_number("--threads", text, threads_key));
-            },
-            "Worker threads; default: the CPUs this process may use")
-        ->type_name("N");
     command.add_option("--isa", request.isa, "Instruction set: auto, scalar, sse4.2, avx2 or avx512")->type_name("NAME");
+}
+
+void add_flatten_options(CLI::App& command, FrameRequest& request) {
+    const auto set_threads = [&request](const std::string& text) {
+        request.threads = static_cast<int>(parse_number("--threads", text, threads_key));
+    };
+    command.add_option_function<std::string>("--threads", set_threads, "Threads; default: the CPUs this process may use")
+        ->type_name("N");
     add_settings_options(command, request.changes);
 }
 
@@ -49,9 +48,9 @@ RequestedScene load_requested(const FrameRequest& request) {
     RequestedScene scene;
     scene.description = std::move(loaded.description);
     scene.settings = changed(scene.description.render, request.changes);
-    scene.warnings = static_cast<int>(loaded.warnings.size());
+    scene.warnings = std::move(loaded.warnings);
     if (!request.quiet)
-        for (const std::string& warning : loaded.warnings) print_message(warning);
+        for (const std::string& warning : scene.warnings) print_message(warning);
     scene.load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return scene;
 }
@@ -60,9 +59,10 @@ SceneArrays flatten_requested(const FrameRequest& request, RequestedScene& scene
     SceneArrays arrays = flatten(scene.description, scene.settings, thread_count(request));
     const std::string name = printable(request.scene, 4096);
     if (request.strict && !arrays.warnings.empty()) throw Error(ExitCode::scene, name + ": error: " + arrays.warnings.front());
-    scene.warnings += static_cast<int>(arrays.warnings.size());
-    if (!request.quiet)
-        for (const std::string& warning : arrays.warnings) print_message(name + ": warning: " + warning);
+    for (const std::string& text : arrays.warnings) {
+        scene.warnings.push_back(name + ": warning: " + text);
+        if (!request.quiet) print_message(scene.warnings.back());
+    }
     return arrays;
 }
 

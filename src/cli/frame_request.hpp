@@ -27,13 +27,15 @@ struct FrameRequest {
 
 /// The positional scene, --strict, --quiet.
 void add_scene_options(CLI::App& command, FrameRequest& request);
-/// --size, --threads, --isa and all switches.
+/// --size, --isa.
 void add_frame_options(CLI::App& command, FrameRequest& request);
+/// --threads and all switches.
+void add_flatten_options(CLI::App& command, FrameRequest& request);
 
 struct RequestedScene {
     SceneDescription description;
     RenderSettings settings;
-    int warnings = 0; ///< so far
+    std::vector<std::string> warnings; ///< so far
     double load_seconds = 0;
 };
 

@@ -60,6 +60,11 @@ std::string fixed(double value, int decimals) {
     return text;
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+    const bool sibilant = noun.ends_with('s') || noun.ends_with('h');
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : sibilant ? "es" : "s");
+}
+
 std::string short_count(double value) {
     static constexpr Unit units[] = {{1e12, "T"}, {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}};
     return in_units(value, units);

@@ -1,6 +1,7 @@
 #pragma once
 // What the program says: results on the standard output, everything else on the standard error.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,8 @@ void print_message(std::string_view line) noexcept;
 
 /// `value` with `decimals` digits after the point.
 [[nodiscard]] std::string fixed(double value, int decimals);
+/// "1 light", "2 lights".
+[[nodiscard]] std::string counted(std::size_t count, const std::string& noun);
 /// "12.3 M", of counts and rates: three digits and a power of a thousand.
 [[nodiscard]] std::string short_count(double value);
 /// "1.23 s", "45.6 ms", "7.89 us".

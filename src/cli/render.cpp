@@ -77,6 +77,7 @@ void add_options(CLI::App& command, RenderRequest& request) {
             "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it")
         ->type_name("N");
     add_frame_options(command, request.frame);
+    add_flatten_options(command, request.frame);
 }
 
 [[nodiscard]] FrameOptions requested_frame(const RenderRequest& request, const RequestedScene& scene) {

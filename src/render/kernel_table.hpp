@@ -55,8 +55,8 @@ struct TraceRecord {
     float point[3];
     float normal[3]; ///< unit, faces the ray
     std::int32_t inside; ///< 1: the ray hit the surface from its inside
-    float fresnel;   ///< factor of the reflection
-    float ambient[3];
+    float fresnel;       ///< factor of the reflection; 0 where nothing is reflected
+    float ambient[3];    ///< term of the local light; the background of a ray that left
     float color[3];  ///< of the ray, children included
 };
 

@@ -14,7 +14,8 @@ namespace lanecast::inline LANECAST_ISA {
 template <class T>
 concept ScalarBatch = std::is_same_v<T, float> || std::is_same_v<T, double>;
 
-// Not <bit>: without optimisation its functions are emitted, and the linker would share one ISA's copy with all (docs/building.md).
+// Not <bit>: without optimisation its functions are emitted, and the linker would share one ISA's copy with all
+// (docs/building.md).
 LANECAST_INLINE std::uint32_t count_bits(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_popcount(b)); }
 /// b is not 0.
 LANECAST_INLINE std::uint32_t lowest_bit(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_ctz(b)); }

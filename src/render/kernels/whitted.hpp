@@ -138,6 +138,8 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
         const Int<F> back = select(inside, inward, outward), onward = select(inside, outward, inward);
         const Spawn<F> spawn{job, queue, v};
         const Transmission<F> through = transmit(d, n, index, inside);
+        if (job.log != nullptr)
+            log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
         if (reflects) {
             const Vec3<F> factor = job.schlick != 0 ? reflective * through.fresnel : reflective;
             const Vec3<F> opaque{F(1) - transmissive.x, F(1) - transmissive.y, F(1) - transmissive.z};
