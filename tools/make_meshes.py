@@ -340,7 +340,7 @@ def floor(pitch=1.1, inset=0.30, joint=0.012):
             a = h - c
             octagon = [(-h, -a), (-h, a), (-a, h), (a, h), (h, a), (h, -a), (a, -h), (-a, -h)]
             mesh.face(*[(x + u, 0.0, z + v) for u, v in octagon], material="light" if (i + k) % 2 else "warm")
-            s = c + joint - joint * 1.5
+            s = c - joint / 2
             square = [(0, -s), (-s, 0), (0, s), (s, 0)]
             mesh.face(*[(x + pitch / 2 + u, 0.0, z + pitch / 2 + v) for u, v in square], material="dark")
     return mesh

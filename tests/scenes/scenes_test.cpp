@@ -104,7 +104,7 @@ TEST_CASE("every scene loads strictly and shows something") {
 
 TEST_CASE("each feature's scene shows its feature: without it the picture is another one") {
     struct Case {
-        const char* name;
+        std::string name;
         void (*without)(SceneDescription&);
     };
     const Case cases[] = {
@@ -143,7 +143,7 @@ TEST_CASE("each feature's scene shows its feature: without it the picture is ano
     };
     for (const auto& [name, without] : cases) {
         CAPTURE(name);
-        const auto file = std::filesystem::path(LANECAST_SOURCE_DIR "/scenes") / (std::string(name) + ".json");
+        const auto file = std::filesystem::path(LANECAST_SOURCE_DIR "/scenes") / (name + ".json");
         SceneDescription scene = load_scene(file, {.strict = true}).description;
         const Film with_it = render_small(scene, scene.render);
         without(scene);
