@@ -58,6 +58,8 @@ std::string nearest(const CLI::App& command, const std::string& word) {
 }
 
 std::string explanation(const CLI::App& command, const CLI::ParseError& error) {
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command.get_parent() == nullptr)
+        return "a command is required: render, check, info, pick, diff or schema";
     const auto extras = command.remaining();
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || extras.empty()) return error.what();
     const std::string near = nearest(command, extras.front());
