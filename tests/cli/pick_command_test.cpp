@@ -72,7 +72,7 @@ TEST_CASE("the tree as JSON; triangles have their number in the mesh") {
         CHECK(contains(json, text));
     }
     // The pyramid's front is the first triangle of object 4.
-    const std::string pyramid = run({"pick", small_scene().string(), "33", "14", "--quiet"}).out;
+    const std::string pyramid = run({"pick", small_scene().string(), "33", "18", "--quiet"}).out;
     CAPTURE(pyramid);
     CHECK(contains(pyramid, "object 4, mesh, triangle 0\n"));
 }
