@@ -10,3 +10,8 @@ function(lanecast_fuzzer name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_link_options(${name} PRIVATE -fsanitize=fuzzer)
 endfunction()
+
+# Everything that reads a user's file; tests/fuzz/run runs them.
+foreach(reader scene obj ply)
+  lanecast_fuzzer(fuzz_${reader} SOURCES fuzz/fuzz_${reader}.cpp)
+endforeach()

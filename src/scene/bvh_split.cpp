@@ -74,11 +74,9 @@ void sort_small(const float* keys, std::uint32_t count, std::uint8_t* order) {
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-/// What `count` primitives will cost per area, in quarters: 3 for each leaf they need, 1 for each of them. Kinds never share a
-/// leaf.
-float expected_cost(std::uint32_t count, std::uint32_t kinds) {
-    const std::uint32_t more_kinds = (kinds & (kinds - 1)) == 0 ? 0 : static_cast<std::uint32_t>(std::popcount(kinds)) - 1;
-    return static_cast<float>(3 * ((count + max_leaf_size - 1) / max_leaf_size + more_kinds) + count);
+/// What `count` primitives will cost per area, in quarters: 3 for a leaf, 1 for each of them. Kinds never share a leaf.
+float expected_cost(std::uint32_t count, bool mixed, std::uint32_t kinds) {
+    return static_cast<float>(count + 3 * (mixed ? static_cast<std::uint32_t>(std::popcount(kinds)) : 1));
 }
 
 /// All cuts along all axes, and between kinds where they are mixed.
@@ -93,7 +91,8 @@ void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]
         for (int axis = 0; axis < 3; ++axis) keys[axis][i] = centre[axis];
         keys[3][i] = static_cast<float>(kind_of(own[i]));
     }
-    const int ways = is_mixed(range) ? 4 : 3;
+    const bool mixed = is_mixed(range);
+    const int ways = mixed ? 4 : 3;
     std::uint8_t order[4][sweep_limit];
     float best_cost = std::numeric_limits<float>::infinity();
     int best_way = 0;
@@ -106,16 +105,16 @@ void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]
         for (std::uint32_t i = count - 1; i > 0; --i) {
             box_lo = min4(box_lo, lo[order[way][i]]);
             box_hi = max4(box_hi, hi[order[way][i]]);
-            kinds |= 1u << kind_of(own[order[way][i]]);
-            right_cost[i] = half_area(box_hi - box_lo) * expected_cost(count - i, kinds);
+            if (mixed) kinds |= 1u << kind_of(own[order[way][i]]);
+            right_cost[i] = half_area(box_hi - box_lo) * expected_cost(count - i, mixed, kinds);
         }
         box_lo = splat4(empty_lo), box_hi = splat4(-empty_lo);
         kinds = 0;
         for (std::uint32_t i = 1; i < count; ++i) {
             box_lo = min4(box_lo, lo[order[way][i - 1]]);
             box_hi = max4(box_hi, hi[order[way][i - 1]]);
-            kinds |= 1u << kind_of(own[order[way][i - 1]]);
-            const float cost = half_area(box_hi - box_lo) * expected_cost(i, kinds) + right_cost[i];
+            if (mixed) kinds |= 1u << kind_of(own[order[way][i - 1]]);
+            const float cost = half_area(box_hi - box_lo) * expected_cost(i, mixed, kinds) + right_cost[i];
             if (cost < best_cost) best_cost = cost, best_way = way, best_left = i;
         }
     }

@@ -133,6 +133,8 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     const auto start = Clock::now();
     SceneArrays arrays;
     const FlatObjects objects = prepare_objects(scene);
+    constexpr std::size_t worth_a_thread = 4096; // primitives: below, starting a thread takes longer than the work
+    if (objects.refs < worth_a_thread) threads = 1;
     const DoubleBox bounds = bounds_of(objects, threads);
     arrays.bounds_min = bounds.lo;
     arrays.bounds_max = bounds.hi;

@@ -60,7 +60,12 @@ Mesh load_mesh_file(SceneReader& reader, NodeId node, const Material& material) 
         Mesh out = format == MeshFormat::obj ? read_obj(bytes.view(), name, path.parent_path(), material, warnings)
                                              : read_ply(bytes.view(), name);
         out.file = file;
-        for (std::string& warning : warnings.messages) reader.mesh_warnings.push_back(std::move(warning) + asked_by());
+        for (std::string& warning : warnings.messages) {
+            if (reader.mesh_warnings.size() < max_remarks)
+                reader.mesh_warnings.push_back(std::move(warning) + asked_by());
+            else
+                ++reader.remarks_dropped;
+        }
         return out;
     } catch (const Error& error) { // the reader does not know which object asks
         throw Error(error.code(), error.what() + asked_by());

@@ -7,6 +7,7 @@
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace lanecast {
 namespace {
@@ -33,11 +34,11 @@ std::vector<std::string> formatted_warnings(SceneReader& reader) {
         out.push_back(
             format_diagnostic(reader.name, source, spans[i].begin, "warning", place + ": " + reader.remarks[i].message));
     }
-    if (reader.remarks_dropped > 0)
-        out.push_back(reader.name + ": warning: " + std::to_string(reader.remarks_dropped) + " more warnings");
     if (reader.document.trailing_text)
         out.push_back(format_diagnostic(reader.name, source, find_trailing_text(source), "warning", trailing_message));
     std::ranges::move(reader.mesh_warnings, std::back_inserter(out));
+    if (reader.remarks_dropped > 0)
+        out.push_back(reader.name + ": warning: " + std::to_string(reader.remarks_dropped) + " more warnings");
     return out;
 }
 

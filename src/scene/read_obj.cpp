@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <unordered_set>
 
 namespace lanecast {
 namespace {
@@ -27,6 +28,7 @@ struct ObjReader {
     Mesh mesh = {};
     MaterialLibrary library = {};
     std::uint32_t material = 0; ///< current, index into library.materials
+    std::unordered_set<std::string> libraries_read = {};
     bool library_missing = false;
     std::uint32_t largest_forward = 0; ///< largest index that named a vertex not yet read; 1-based
     const char* forward_place = nullptr;
@@ -90,6 +92,7 @@ struct ObjReader {
     }
 
     void read_library(const char* place, std::string_view file_name) {
+        if (!libraries_read.insert(std::string(file_name)).second) return; // some exporters name it before every object
         const std::filesystem::path file = directory / file_name;
         FileBytes bytes;
         if (file_name.find('\0') == std::string_view::npos)
@@ -108,7 +111,9 @@ struct ObjReader {
     /// `mtllib a.mtl b.mtl`, or one name with blanks in it.
     void read_libraries() {
         std::string_view names = cursor.rest_of_line();
-        const bool one_file = names.find_first_of(" \t") == std::string_view::npos || !read_file(directory / names).fault.size();
+        std::error_code ignored;
+        const bool one_file =
+            names.find_first_of(" \t") == std::string_view::npos || std::filesystem::is_regular_file(directory / names, ignored);
         if (one_file) return read_library(names.data(), names);
         while (!names.empty()) {
             const std::size_t length = std::min(names.find_first_of(" \t"), names.size());

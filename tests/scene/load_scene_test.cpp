@@ -3,7 +3,10 @@
 #include "scene/error.hpp"
 #include "scene/load_scene.hpp"
 
-#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
 
 #include <doctest/doctest.h>
 
@@ -92,6 +95,22 @@ TEST_CASE("a thousand unknown keys are reported once in a while") {
     CHECK(warnings.back() == "w.json: warning: 99951 more warnings");
 }
 
+TEST_CASE("a material library that every object misses is reported a few times") {
+    const std::filesystem::path directory =
+        std::filesystem::temp_directory_path() / ("lanecast_scene_" + std::to_string(::getpid()));
+    std::filesystem::create_directory(directory);
+    std::ofstream(directory / "a.obj") << "mtllib none.mtl\nv 0 0 0\nf 1 1 1\n";
+    std::string objects = R"({"type": "mesh", "file": "a.obj"})";
+    for (int i = 0; i < 69; ++i) objects += R"(, {"type": "mesh", "file": "a.obj"})";
+    const std::vector<std::string> warnings = parse_scene(scene(objects), "w.json", directory).warnings;
+    std::filesystem::remove_all(directory);
+    REQUIRE(warnings.size() == 51);
+    CHECK(warnings[0].find(
+              "a.obj:1:8: warning: cannot read the materials `none.mtl`: No such file or directory\nmtllib none.mtl\n       ^\n"
+              "w.json:1:53: note: /objects/0/file: asks for this file\n") != std::string::npos);
+    CHECK(warnings[50] == "w.json: warning: 20 more warnings");
+}
+
 TEST_CASE("nesting: 64 levels are read, 65 are an error, whatever follows") {
     const auto nested = [](int depth) {
         return scene("", "",
@@ -122,4 +141,19 @@ TEST_CASE("a mesh without triangles is worth a word") {
     const std::vector<std::string> warnings = warnings_of(scene(R"({"type": "mesh", "triangles": [], "material": {}})"));
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].starts_with("w.json:1:58: warning: /objects/0/triangles: the mesh has no triangles\n"));
+}
+
+TEST_CASE("the examples of docs/scene-format.md load without a warning") {
+    std::ifstream file(std::string(LANECAST_SOURCE_DIR) + "/docs/scene-format.md");
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string page = text.str();
+    int examples = 0;
+    const std::string fence = "```json\n";
+    for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at + 1)) {
+        const std::size_t start = at + fence.size();
+        CHECK(error_of(page.substr(start, page.find("```", start) - start), {.strict = true}) == "");
+        ++examples;
+    }
+    CHECK(examples == 5);
 }

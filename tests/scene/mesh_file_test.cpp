@@ -58,10 +58,9 @@ TEST_CASE("OBJ: materials") {
     base.shininess = 3;
     MeshWarnings warnings;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    const Mesh mesh = read_obj(
-        vertices +
-            "f 1 2 3\nmtllib two words.mtl\nusemtl red\nf 1 2 3\nusemtl grey glass\nf 1 2 3\nf 3 2 1\nusemtl none\nf 1 2 3\n",
-        "m.obj", directory, base, warnings);
+    const Mesh mesh = read_obj(vertices + "f 1 2 3\nmtllib two words.mtl\nusemtl red\nf 1 2 3\nmtllib two words.mtl\nusemtl grey "
+                                          "glass\nf 1 2 3\nf 3 2 1\nusemtl none\nf 1 2 3\n",
+                               "m.obj", directory, base, warnings);
     REQUIRE(mesh.materials.size() == 3);
     CHECK(mesh.triangle_material == std::vector<std::uint32_t>{0, 1, 2, 2, 0});
     CHECK(mesh.materials[0].ambient == base.ambient);
@@ -75,7 +74,7 @@ TEST_CASE("OBJ: materials") {
     CHECK(mesh.materials[2].shininess == 3);
     REQUIRE(warnings.messages.size() == 1);
     CHECK(warnings.messages[0] ==
-          "m.obj:11:8: warning: the material `none` is not defined; the object's own is used\nusemtl none\n       ^");
+          "m.obj:12:8: warning: the material `none` is not defined; the object's own is used\nusemtl none\n       ^");
     std::filesystem::remove_all(directory);
 }
 

@@ -158,3 +158,13 @@ TEST_CASE("lines and columns") {
     CHECK(at(999) == P(4, 4));
     CHECK(line_column("\xef\xbb\xbf{", 3).column == 1);
 }
+
+TEST_CASE("a long line of malformed UTF-8 is shown, cut and harmless") {
+    for (const std::size_t place : {0, 1, 60, 100, 250, 299}) {
+        const std::string text = "{}\n" + std::string(300, '\xab') + "\n{}";
+        const std::string message = format_diagnostic("f", text, 3 + place, "error", "m");
+        CHECK(message.starts_with("f:2:"));
+        CHECK(message.size() < 400);
+        CHECK(message.find('{') == std::string::npos);
+    }
+}

@@ -24,6 +24,8 @@ TEST_CASE("transformations are applied first to last") {
                                             Rotation{{1, 0, 0}, 90}};
     // (1,0,0) -> (2,0,0) -> (0,2,0) -> (0,2,5) -> (0,-5,2)
     CHECK(apply(compose(chain), {1, 0, 0}) == glm::dvec3(0, -5, 2));
+    const std::vector<Transformation> moved_first{Translation{{1, 2, 3}}, Scale{{2, 3, -4}}};
+    CHECK(apply(compose(moved_first), {1, 1, 1}) == glm::dvec3(4, 9, -16));
     CHECK(apply(compose({}), {1, 2, 3}) == glm::dvec3(1, 2, 3));
 }
 

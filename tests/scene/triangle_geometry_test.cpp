@@ -92,6 +92,23 @@ TEST_CASE("collinear and one ulp beside it, with coordinates of very different s
     CHECK_FALSE(is_degenerate(Triangle{{{0, 0, 0}, {1e-44f, 0, 0}, {0, 1e-44f, 0}}})); // denormal, but a triangle
 }
 
+TEST_CASE("points on a line through the origin, far closer to it than double can tell, and one ulp beside it") {
+    Random random(7);
+    for (int i = 0; i < 20000; ++i) {
+        const int direction[3] = {1 + random.below(100), -1 - random.below(100), 1 + random.below(100)};
+        Triangle t{};
+        for (int p = 0; p < 3; ++p) {
+            const double along =
+                std::ldexp(1 + 2 * random.below(1 << 15), -random.below(80) - p); // different by the power of two
+            for (int axis = 0; axis < 3; ++axis) t.v[p][axis] = static_cast<float>((p == 2 ? -along : along) * direction[axis]);
+        }
+        REQUIRE(is_degenerate(t));
+        float& moved = t.v[random.below(3)][random.below(3)];
+        moved = std::nextafter(moved, random.chance(0.5) ? 1e9f : -1e9f);
+        REQUIRE_FALSE((is_degenerate(t) && t.v[0][0] != t.v[1][0]));
+    }
+}
+
 TEST_CASE("normals of well-shaped triangles and of needles") {
     Random random(2);
     double worst = 0, worst_needle = 0;

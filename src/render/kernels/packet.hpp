@@ -120,7 +120,8 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
         const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) + (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
                       (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
-        const Mask<F> valid = (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0));
+        const F t = load<F>(packet.t + i);
+        const Mask<F> valid = (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
         if (!all(valid)) detail::kill_lanes(packet, i, valid);
 
         store(packet.slot + i, Int<F>(-1));

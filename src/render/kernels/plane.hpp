@@ -6,7 +6,7 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
-/// In units of |d|; infinite or NaN, which no range accepts, for rays that run along the plane.
+/// In units of |d|; infinite or NaN, which no range accepts (`no_limit`), for rays that run along the plane.
 template <FloatBatch F>
 LANECAST_INLINE F plane_t(const PlaneRecord& plane, const Vec3<F>& org, const Vec3<F>& dir) {
     using S = Scalar<F>;

@@ -115,7 +115,7 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
     const Vec3<F> q = o + d * t;
     const F zero(0), half(S(0.5)), inv_radius = F(1) / sqrt(q.x * q.x + q.z * q.z);
-    const F side = copysign(half, q.y);
+    const F side = copysign(half, select(enters, -d.y, d.y)); // q.y is noise on a disc far thinner than it is far
     const Vec3<F> on_side{q.x * inv_radius, max(min(q.y, half), -half), q.z * inv_radius};
     const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, on_side);
     const Vec3<F> n = select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{on_side.x, zero, on_side.z});
