@@ -32,7 +32,7 @@ Material random_material(Random& random) {
     material.ambient = random.vector(0, 0.4);
     material.diffuse = random.vector(0, 1);
     if (random.chance(0.5)) material.specular = random.vector(0, 1), material.shininess = std::floor(random.uniform(0, 40));
-    if (random.chance(0.3)) material.reflective = random.vector(0, 0.9);
+    if (random.chance(0.5)) material.reflective = random.vector(0, 0.9);
     if (random.chance(0.3)) {
         material.transmissive = random.vector(0, 0.9);
         if (random.chance(0.8)) material.refraction = random.uniform(0.7, 1.8);
@@ -69,7 +69,7 @@ Object random_object(Random& random) {
 }
 
 Light random_light(Random& random) {
-    const glm::dvec3 color = random.vector(0, 0.8), position = random.vector(-6, 6);
+    const glm::dvec3 color = random.vector(0, 1.6), position = random.vector(-6, 6);
     const std::array<double, 3> attenuation{1, random.chance(0.5) ? random.uniform(0, 0.1) : 0, 0.01};
     const double kind = random.uniform(0, 3);
     if (kind < 1) return DirectionalLight{color, random.vector(-1, 1), 0};
@@ -149,10 +149,10 @@ TEST_CASE("Lanecast and the seed tracer agree on random scenes") {
         const Picture8 ours = plain(render_lanecast(scene, size));
         const double of_scene = share_beyond(ours, plain(render_seed(scene, scene.render, {}, size, size, threads)), 1);
         CAPTURE(i);
-        CHECK(of_scene <= 0.01);
+        CHECK(of_scene <= 0.002);
         off += of_scene / scenes;
     }
-    CHECK(off <= 0.0005);
+    CHECK(off <= 0.00005); // measured: none of 345,600 pixels
     MESSAGE("off by more than 1/255: " << 100 * off << " % of the pixels");
 }
 
