@@ -11,6 +11,7 @@ target_compile_options(lanecast_flags INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-fno-slp-vectorize>
   $<$<CONFIG:Debug>:-Og>
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical> # in kernels, masks of width 1 are bools
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarm of g++ 12 on "literal" + std::string (GCC bug 105651)
   $<$<BOOL:${LANECAST_WERROR}>:-Werror>)
 

@@ -3,9 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS lanecast_lib EXPORT lanecast_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-if(TARGET lanecast)
-  install(TARGETS lanecast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+install(TARGETS lanecast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY src/scene src/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanecast
   FILES_MATCHING PATTERN "*.hpp" PATTERN "kernels" EXCLUDE)
 

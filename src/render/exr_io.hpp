@@ -2,6 +2,7 @@
 // Films as OpenEXR files: scanlines, ZIPS, linear Rec.709; docs/output.md has channels and attributes.
 
 #include "render/film.hpp"
+#include "render/output_file.hpp"
 
 #include <filesystem>
 #include <string>
@@ -26,6 +27,8 @@ struct ExrOptions {
 /// pixels are rounded to nearest even and clamped to +-65504; NaN is written as 0, an infinity as the largest value of its sign:
 /// see scrub.hpp to count them. Throws Error (output); see OutputFile for what happens to the file then.
 void write_exr(const std::filesystem::path& path, const Film& film, const ExrOptions& options = {});
+/// The same without the commit.
+void write_exr(OutputFile& file, const Film& film, const ExrOptions& options);
 
 /// The first part's R, G and B, or its Y three times; any windows, half or float. The film's pixel (0, 0) is the display window's
 /// corner. Throws Error (asset).

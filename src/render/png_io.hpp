@@ -2,6 +2,7 @@
 // 8-bit RGB PNG out, any PNG in.
 
 #include "render/film.hpp"
+#include "render/output_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +18,8 @@ struct Picture8 {
 
 /// With sRGB, gAMA and cHRM chunks. Equal pictures give equal bytes. Throws Error (output); see OutputFile.
 void write_png(const std::filesystem::path& path, const Picture8& picture);
+/// The same without the commit.
+void write_png(OutputFile& file, const Picture8& picture);
 
 /// The code values divided by 255 (65535 for 16 bit): no curve is undone. Palettes and greys become RGB, alpha is ignored.
 /// Throws Error (asset).

@@ -50,14 +50,19 @@ void ignore_warning(png_structp, png_const_charp) {}
 
 } // namespace
 
-void write_png(const std::filesystem::path& path, const Picture8& picture) {
-    OutputFile file(path);
+void write_png(OutputFile& file, const Picture8& picture) {
     Reason reason;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &reason, keep_reason, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const bool encoded = info && encode(png, info, file, picture);
     png_destroy_write_struct(&png, &info);
-    if (!encoded && !file.failed()) throw Error(ExitCode::output, path.string() + ": cannot write: " + reason.text);
+    if (file.failed()) throw file.error();
+    if (!encoded) throw Error(ExitCode::output, file.path().string() + ": cannot write: " + reason.text);
+}
+
+void write_png(const std::filesystem::path& path, const Picture8& picture) {
+    OutputFile file(path);
+    write_png(file, picture);
     file.commit();
 }
 

@@ -11,8 +11,6 @@
 #include <new>
 #include <thread>
 
-#include <x86intrin.h>
-
 namespace lanecast {
 namespace {
 
@@ -43,6 +41,11 @@ std::uint64_t rays_of(const TileStats& stats) {
     std::uint64_t rays = 0;
     for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
     return rays;
+}
+
+// Edge traces the border of a tile too.
+PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
+    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
 }
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
@@ -86,6 +89,10 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     frame.film = make_film(options.width, options.height, crop);
     RenderJob job = make_job(scene, camera, settings, options);
     job.film = view(frame.film);
+    const PixelOrder order = pixel_order(settings, options);
+    job.pixel_order[0] = order.x.data();
+    job.pixel_order[1] = order.y.data();
+    job.pixel_order_count = order.count;
 
     const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
     const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
@@ -98,9 +105,10 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     std::mutex mutex; // of frame.stats and `finished`; taken once per worker
     std::condition_variable all_done;
     int finished = 0;
+    const auto stopped = [&] { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); };
     const auto work = [&](int worker) {
         TileStats sum{};
-        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size();
+        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size() && !stopped();
              i = next.fetch_add(1, std::memory_order_relaxed)) {
             const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
             add(sum, tile);
@@ -114,7 +122,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     };
 
     const auto begin = Clock::now();
-    const std::uint64_t begin_ticks = __rdtsc();
+    const std::uint64_t begin_ticks = __builtin_ia32_rdtsc();
     {
         std::vector<std::jthread> workers;
         // without progress the caller is a worker too: one thread less to start
@@ -131,8 +139,9 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
         }
     }
     frame.stats.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    frame.stats.ticks_per_second = static_cast<double>(__rdtsc() - begin_ticks) / frame.stats.seconds;
+    frame.stats.ticks_per_second = static_cast<double>(__builtin_ia32_rdtsc() - begin_ticks) / frame.stats.seconds;
     frame.stats.threads = threads;
+    frame.complete = done.load() == tiles.size();
     return frame;
 }
 

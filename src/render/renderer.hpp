@@ -6,6 +6,7 @@
 #include "scene/render_settings.hpp"
 #include "scene/scene_arrays.hpp"
 
+#include <atomic>
 #include <functional>
 
 namespace lanecast {
@@ -14,19 +15,21 @@ struct FrameOptions {
     int width = 512, height = 512; ///< of the image, in pixels
     Tile crop{0, 0, 0, 0};         ///< part of the image to render; empty: all of it
     int threads = 1;
-    int tile_size = 32; ///< pixels, 1 to 64; tiles lie on the absolute pixel grid
+    int tile_size = 32;                      ///< pixels, 1 to 64; tiles lie on the absolute pixel grid
+    const std::atomic<bool>* stop = nullptr; ///< once true no more tiles are begun; may be null
 };
 
 struct FrameStats {
     TileStats tiles{}; ///< summed over tiles and threads
     int threads = 0;
-    double seconds = 0; ///< first ray to finished film
+    double seconds = 0;          ///< first ray to finished film
     double ticks_per_second = 0; ///< of the time-stamp counter, measured over the frame
 };
 
 struct Frame {
     Film film;
     FrameStats stats;
+    bool complete = false; ///< false: stopped before every tile was rendered
 };
 
 /// Called from the calling thread, about ten times a second: share of the tiles done, 0 to 1, rays traced so far.

@@ -63,11 +63,11 @@ inline void include(DoubleBox& box, const DoubleBox& other) {
 }
 
 /// Box of a quadric about `centre`. Its computed t carries a few ulp of error, so the box is 2^-20 of its extent and of its
-/// coordinates larger than the body.
-[[nodiscard]] inline Box quadric_box(const glm::dvec3& centre, const glm::dvec3& extent) {
+/// coordinates larger than the body. `condition`, of its matrix, magnifies what rounding the ray's coordinates, of 1 or so, does.
+[[nodiscard]] inline Box quadric_box(const glm::dvec3& centre, const glm::dvec3& extent, double condition = 0) {
     double size = 0;
     for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(centre[axis]) + extent[axis]);
-    const double margin = 0x1p-20 * size; // |coordinate| + extent of the worst axis
+    const double margin = 0x1p-20 * size + 0x1p-19 * condition; // |coordinate| + extent of the worst axis
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
         box.lo[axis] = rounded_down(centre[axis] - extent[axis] - margin);

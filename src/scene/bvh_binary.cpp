@@ -64,7 +64,7 @@ public:
         : refs_(refs), count_(static_cast<std::uint32_t>(count)), threads_(threads) {
         // Untouched pages cost nothing. Every chunk but a thread's last is used but for small_nodes.
         const std::size_t used = 2 * count + 2 * count / (node_chunk / small_nodes - 1);
-        nodes_ = std::make_unique_for_overwrite<BinaryNode[]>(used + static_cast<std::size_t>(threads + 2) * node_chunk);
+        nodes_ = make_scratch<BinaryNode>(used + static_cast<std::size_t>(threads + 2) * node_chunk);
     }
 
     BinaryTree run() {
@@ -210,7 +210,7 @@ private:
     BuildRef* refs_;
     std::uint32_t count_;
     int threads_;
-    std::unique_ptr<BinaryNode[]> nodes_;
+    Scratch<BinaryNode> nodes_;
     std::atomic<std::uint32_t> next_chunk_{1};
     NodeCursor top_cursor_;
     TaskQueue queue_;

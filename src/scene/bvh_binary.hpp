@@ -3,9 +3,9 @@
 
 #include "scene/bvh_refs.hpp"
 
+#include "scene/scratch.hpp"
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
 namespace lanecast {
 
@@ -20,7 +20,7 @@ struct BinaryNode {
 [[nodiscard]] inline bool is_leaf(const BinaryNode& node) noexcept { return node.children == 0; }
 
 struct BinaryTree {
-    std::unique_ptr<BinaryNode[]> nodes; ///< root at 0; the order of the others depends on the threads, the tree does not
+    Scratch<BinaryNode> nodes; ///< root at 0; the order of the others depends on the threads, the tree does not
 };
 
 /// Reorders `refs` (1 <= count < 2^31) so that every node has a contiguous range. Leaves hold one kind and at most max_leaf_size

@@ -11,18 +11,26 @@ namespace {
 
 constexpr std::uint32_t parallel_piece = 32768; ///< primitives binned by one thread at a time
 
+struct Bin {
+    Float4 lo, hi;
+};
+
 struct Bins {
-    Float4 lo[3][max_bins], hi[3][max_bins];
+    Bin box[3][max_bins];
     std::uint32_t count[3][max_bins];
 };
 
 void clear(Bins& bins, int used) {
     for (int axis = 0; axis < 3; ++axis)
         for (int b = 0; b < used; ++b) {
-            bins.lo[axis][b] = splat4(empty_lo);
-            bins.hi[axis][b] = splat4(-empty_lo);
+            bins.box[axis][b] = {splat4(empty_lo), splat4(-empty_lo)};
             bins.count[axis][b] = 0;
         }
+}
+
+void grow(Bin& bin, Float4 lo, Float4 hi) {
+    bin.lo = min4(bin.lo, lo);
+    bin.hi = max4(bin.hi, hi);
 }
 
 void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const BinMapping& mapping) {
@@ -30,10 +38,8 @@ void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const Bin
         const Float4 lo = lo_of(refs[i]), hi = hi_of(refs[i]);
         const Int4 bin = mapping(lo + hi);
         for (int axis = 0; axis < 3; ++axis) {
-            const int b = bin[axis];
-            bins.lo[axis][b] = min4(bins.lo[axis][b], lo);
-            bins.hi[axis][b] = max4(bins.hi[axis][b], hi);
-            ++bins.count[axis][b];
+            grow(bins.box[axis][bin[axis]], lo, hi);
+            ++bins.count[axis][bin[axis]];
         }
     }
 }
@@ -41,8 +47,7 @@ void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const Bin
 void merge(Bins& bins, const Bins& other, int used) {
     for (int axis = 0; axis < 3; ++axis)
         for (int b = 0; b < used; ++b) {
-            bins.lo[axis][b] = min4(bins.lo[axis][b], other.lo[axis][b]);
-            bins.hi[axis][b] = max4(bins.hi[axis][b], other.hi[axis][b]);
+            grow(bins.box[axis][b], other.box[axis][b].lo, other.box[axis][b].hi);
             bins.count[axis][b] += other.count[axis][b];
         }
 }
@@ -55,15 +60,15 @@ BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
         float right_area[max_bins];
         Float4 lo = splat4(empty_lo), hi = splat4(-empty_lo);
         for (int b = used - 1; b > 0; --b) {
-            lo = min4(lo, bins.lo[axis][b]);
-            hi = max4(hi, bins.hi[axis][b]);
+            lo = min4(lo, bins.box[axis][b].lo);
+            hi = max4(hi, bins.box[axis][b].hi);
             right_area[b] = half_area(hi - lo);
         }
         lo = splat4(empty_lo), hi = splat4(-empty_lo);
         std::uint32_t left = 0;
         for (int b = 1; b < used; ++b) {
-            lo = min4(lo, bins.lo[axis][b - 1]);
-            hi = max4(hi, bins.hi[axis][b - 1]);
+            lo = min4(lo, bins.box[axis][b - 1].lo);
+            hi = max4(hi, bins.box[axis][b - 1].hi);
             left += bins.count[axis][b - 1];
             if (left == 0) continue;
             if (left == total) break;
@@ -75,8 +80,8 @@ BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
     for (int side = 0; side < 2; ++side) {
         best.lo[side] = splat4(empty_lo), best.hi[side] = splat4(-empty_lo);
         for (int b = side == 0 ? 0 : best.bin; b < (side == 0 ? best.bin : used); ++b) {
-            best.lo[side] = min4(best.lo[side], bins.lo[best.axis][b]);
-            best.hi[side] = max4(best.hi[side], bins.hi[best.axis][b]);
+            best.lo[side] = min4(best.lo[side], bins.box[best.axis][b].lo);
+            best.hi[side] = max4(best.hi[side], bins.box[best.axis][b].hi);
         }
     }
     return best;
@@ -86,7 +91,7 @@ BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
 
 BinMapping make_bin_mapping(const BuildRange& range) {
     BinMapping mapping;
-    mapping.bins = static_cast<int>(std::min<std::uint32_t>(max_bins, 8 + range.count / 16));
+    mapping.bins = static_cast<int>(std::min<std::uint32_t>(max_bins, 4 + range.count / 8));
     mapping.origin = range.centre_lo;
     for (int axis = 0; axis < 3; ++axis) {
         const float extent = range.centre_hi[axis] - range.centre_lo[axis];

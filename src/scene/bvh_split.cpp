@@ -74,7 +74,12 @@ void sort_small(const float* keys, std::uint32_t count, std::uint8_t* order) {
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-/// All cuts along all axes, and between kinds where they are mixed. Cost as of two leaves: area times (3 + count).
+/// What `count` primitives will cost per area, in quarters: 3 for a leaf, 1 for each of them. Kinds never share a leaf.
+float expected_cost(std::uint32_t count, bool mixed, std::uint32_t kinds) {
+    return static_cast<float>(count + 3 * (mixed ? static_cast<std::uint32_t>(std::popcount(kinds)) : 1));
+}
+
+/// All cuts along all axes, and between kinds where they are mixed.
 void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]) {
     const std::uint32_t count = range.count;
     BuildRef* const own = refs + range.first;
@@ -86,27 +91,30 @@ void split_exactly(BuildRef* refs, const BuildRange& range, BuildRange halves[2]
         for (int axis = 0; axis < 3; ++axis) keys[axis][i] = centre[axis];
         keys[3][i] = static_cast<float>(kind_of(own[i]));
     }
-    const int ways = is_mixed(range) ? 4 : 3;
+    const bool mixed = is_mixed(range);
+    const int ways = mixed ? 4 : 3;
     std::uint8_t order[4][sweep_limit];
     float best_cost = std::numeric_limits<float>::infinity();
     int best_way = 0;
     std::uint32_t best_left = count / 2; // should no cost be a number
     for (int way = 0; way < ways; ++way) {
         sort_small(keys[way], count, order[way]);
-        float right_area[sweep_limit];
+        float right_cost[sweep_limit];
+        std::uint32_t kinds = 0;
         Float4 box_lo = splat4(empty_lo), box_hi = splat4(-empty_lo);
         for (std::uint32_t i = count - 1; i > 0; --i) {
             box_lo = min4(box_lo, lo[order[way][i]]);
             box_hi = max4(box_hi, hi[order[way][i]]);
-            right_area[i] = half_area(box_hi - box_lo);
+            if (mixed) kinds |= 1u << kind_of(own[order[way][i]]);
+            right_cost[i] = half_area(box_hi - box_lo) * expected_cost(count - i, mixed, kinds);
         }
         box_lo = splat4(empty_lo), box_hi = splat4(-empty_lo);
+        kinds = 0;
         for (std::uint32_t i = 1; i < count; ++i) {
             box_lo = min4(box_lo, lo[order[way][i - 1]]);
             box_hi = max4(box_hi, hi[order[way][i - 1]]);
-            const float cost =
-                half_area(box_hi - box_lo) * static_cast<float>(3 + i) + right_area[i] * static_cast<float>(3 + count - i);
-            if (way == 3 && keys[3][order[3][i]] == keys[3][order[3][i - 1]]) continue; // cuts through a kind gain nothing here
+            if (mixed) kinds |= 1u << kind_of(own[order[way][i - 1]]);
+            const float cost = half_area(box_hi - box_lo) * expected_cost(i, mixed, kinds) + right_cost[i];
             if (cost < best_cost) best_cost = cost, best_way = way, best_left = i;
         }
     }

@@ -40,14 +40,16 @@ std::string format_diagnostic(std::string_view file, std::string_view text, std:
     if (end > start && end > offset && text[end - 1] == '\r') --end;
     const LineColumn at = line_column(text, offset);
 
-    // Cut by bytes, then moved to the start of a character.
+    // Cut by bytes, then moved back to the start of a character, which has at most four.
+    const auto character_start = [&](std::size_t cut, std::size_t low) {
+        for (int i = 0; i < 3 && cut > low && cut < end && !starts_character(text[cut]); ++i) --cut;
+        return cut;
+    };
     std::size_t first = start;
     std::size_t last = end;
     if (end - start > widest_line) {
-        first = offset - start > lead ? offset - lead : start;
-        last = std::min(end, first + widest_line);
-        while (first > start && !starts_character(text[first])) --first;
-        while (last < end && !starts_character(text[last])) --last;
+        first = offset - start > lead ? character_start(offset - lead, start) : start;
+        last = character_start(std::min(end, first + widest_line), offset);
     }
     const auto shown = [&](std::size_t from, std::size_t to) {
         std::string out;

@@ -8,6 +8,7 @@
 #include "scene/flatten_quadrics.hpp"
 #include "scene/normalise.hpp"
 #include "scene/parallel.hpp"
+#include "scene/scratch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +26,7 @@ constexpr int index_of(PrimitiveKind kind) { return static_cast<int>(kind); }
 struct Bounded {
     BakedVertices vertices;
     Quadrics quadrics;
-    std::unique_ptr<BuildRef[]> refs;
+    Scratch<BuildRef> refs;
     std::size_t count = 0;
 };
 
@@ -39,7 +40,7 @@ DoubleBox bounds_of(const FlatObjects& objects, int threads) {
 Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
     Bounded bounded;
     bounded.vertices = bake_vertices(objects, arrays.normalisation, threads);
-    bounded.refs = std::make_unique_for_overwrite<BuildRef[]>(objects.refs);
+    bounded.refs = make_scratch<BuildRef>(objects.refs);
     arrays.degenerate_triangles = add_triangles(objects, bounded.vertices, bounded.refs.get(), threads);
     arrays.normalisation.exact = bounded.vertices.exact;
     for (const FlatObject& flat : objects.objects) {
@@ -132,6 +133,8 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     const auto start = Clock::now();
     SceneArrays arrays;
     const FlatObjects objects = prepare_objects(scene);
+    constexpr std::size_t worth_a_thread = 4096; // primitives: below, starting a thread takes longer than the work
+    if (objects.refs < worth_a_thread) threads = 1;
     const DoubleBox bounds = bounds_of(objects, threads);
     arrays.bounds_min = bounds.lo;
     arrays.bounds_max = bounds.hi;

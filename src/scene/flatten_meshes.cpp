@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -87,7 +88,7 @@ DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
 
 BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads) {
     BakedVertices baked;
-    baked.positions = std::make_unique_for_overwrite<std::array<float, 4>[]>(objects.vertices);
+    baked.positions = make_scratch<std::array<float, 4>>(objects.vertices);
     const std::vector<Piece> pieces = cut_vertices(objects);
     std::atomic<bool> exact = true;
     parallel_for(threads, pieces.size(), [&](std::size_t p) {
@@ -95,7 +96,9 @@ BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& nor
         bool piece_exact = true;
         for_each_world_position(pieces[p], [&](std::size_t i, const glm::dvec3& position) {
             const glm::dvec3 n = normalised(normalisation, position);
-            piece_exact = piece_exact && is_exact(normalisation, position);
+            // Vertices that no triangle uses may lie outside [-1, 1], and do not count there.
+            if (piece_exact && !is_exact(normalisation, position))
+                piece_exact = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) > 1;
             // + 0 makes -0 to 0: equal vertices are then equal in their bits.
             own[i] = {static_cast<float>(n.x) + 0.0f, static_cast<float>(n.y) + 0.0f, static_cast<float>(n.z) + 0.0f, 0.0f};
         });
@@ -137,16 +140,20 @@ std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& ver
 void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
                          std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records) {
     auto* const rows = reinterpret_cast<float*>(arena + std::size_t{block_offset} * 64);
-    for (std::uint32_t lane = 0; lane < n; ++lane) {
+    const float* corner[max_leaf_size][3];
+    for (std::uint32_t lane = 0; lane < n; ++lane) { // only look-ups, so that their cache misses overlap
         const FlatObject& flat = objects.objects[object_of(refs[lane])];
-        const auto& mesh = std::get<Mesh>(flat.object->shape);
-        const auto indices = wound(mesh, is_mirroring(flat.world_from_object.linear), refs[lane].item);
-        const float* corner[3];
-        for (std::size_t v = 0; v < 3; ++v) {
-            corner[v] = vertices.positions[flat.first_vertex + indices[v]].data();
-            for (std::size_t axis = 0; axis < 3; ++axis) rows[(3 * v + axis) * n + lane] = corner[v][axis];
+        const auto indices = wound(std::get<Mesh>(flat.object->shape), flat.mirrored, refs[lane].item);
+        for (std::size_t v = 0; v < 3; ++v) corner[lane][v] = vertices.positions[flat.first_vertex + indices[v]].data();
+    }
+    for (std::uint32_t lane = 0; lane < n; ++lane) {
+        const auto& [v0, v1, v2] = corner[lane];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            rows[axis * n + lane] = v0[axis];
+            rows[(3 + axis) * n + lane] = v1[axis];
+            rows[(6 + axis) * n + lane] = v2[axis];
         }
-        triangle_normal(corner[0], corner[1], corner[2], records[lane].normal);
+        triangle_normal(v0, v1, v2, records[lane].normal);
         records[lane].block = block_offset << 6 | (n - 1) << 3 | lane;
     }
     std::fill(rows + 9 * n, rows + 16 * block_units(n), 0.0f); // the same bytes every time

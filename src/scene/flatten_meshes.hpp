@@ -5,9 +5,9 @@
 #include "scene/flatten_objects.hpp"
 #include "scene/scene_arrays.hpp"
 
+#include "scene/scratch.hpp"
 #include <array>
 #include <cstdint>
-#include <memory>
 
 namespace lanecast {
 
@@ -16,8 +16,8 @@ namespace lanecast {
 
 /// Normalised float vertices of all meshes, at FlatObject::first_vertex.
 struct BakedVertices {
-    std::unique_ptr<std::array<float, 4>[]> positions; ///< the fourth is 0
-    bool exact = true;                                 ///< no coordinate was rounded by the centring
+    Scratch<std::array<float, 4>> positions; ///< the fourth is 0
+    bool exact = true;                       ///< no coordinate was rounded by the centring
 };
 
 [[nodiscard]] BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads);

@@ -36,6 +36,7 @@ FlatObjects prepare_objects(const SceneDescription& scene) {
         if (!is_finite(flat.world_from_object.linear) || !is_finite(flat.world_from_object.translation))
             throw Error(ExitCode::scene, label(flat) + ": its transformations overflow");
         flat.kind = kind_of_shape(object.shape, flat.world_from_object.linear);
+        flat.mirrored = is_mirroring(flat.world_from_object.linear);
         flat.first_scene_id = static_cast<std::uint32_t>(scene_ids);
         flat.first_ref = result.refs;
         flat.first_vertex = result.vertices;

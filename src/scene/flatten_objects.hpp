@@ -18,6 +18,7 @@ struct FlatObject {
     std::uint32_t index = 0; ///< in the file
     PrimitiveKind kind = PrimitiveKind::triangle;
     AffineTransform world_from_object;
+    bool mirrored = false;
     std::uint32_t first_scene_id = 0; ///< of its triangles in mesh order, or of itself
     std::size_t first_ref = 0;        ///< among all bounded primitives in file order
     std::size_t first_vertex = 0;     ///< among all vertices of meshes

@@ -1,7 +1,10 @@
 #include "scene/load_parts.hpp"
 
 #include "scene/mesh_file.hpp"
+#include "scene/read_file.hpp"
+#include "scene/text_tools.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace lanecast {
@@ -22,7 +25,6 @@ Mesh load_triangles(const SceneReader& reader, NodeId list) {
         return value;
     };
     Mesh out;
-    if (nodes[list].count > max_mesh_elements / 3) fail(reader, list, "too many triangles", ExitCode::memory);
     out.positions.reserve(std::size_t{nodes[list].count} * 3);
     out.triangles.reserve(nodes[list].count);
     for (NodeId triangle = list + 1; triangle < nodes[list].next; triangle = nodes[triangle].next) {
@@ -44,14 +46,28 @@ Mesh load_mesh_file(SceneReader& reader, NodeId node, const Material& material) 
     const std::string file(text_of(reader.document, node));
     if (file.empty() || file.find('\0') != std::string::npos)
         fail(reader, node, "must be the name of a mesh file, got " + shown(reader, node));
+    const std::filesystem::path path = reader.directory / file;
+    const std::string name = printable(path.string(), 4096);
+    const MeshFormat format = mesh_format(path);
+    if (format == MeshFormat::unknown)
+        fail(reader, node, "must end in .obj or .ply, got " + shown(reader, node), ExitCode::asset);
+    const FileBytes bytes = read_file(path);
+    if (!bytes.fault.empty()) fail(reader, node, "cannot read " + name + ": " + bytes.fault, ExitCode::asset);
+
     const auto asked_by = [&] { return "\n" + message_at(reader, node, "note", "asks for this file"); };
-    std::vector<std::string> warnings;
+    MeshWarnings warnings{.strict = reader.strict};
     try {
-        Mesh out = read_mesh(reader.directory / file, material, warnings);
+        Mesh out = format == MeshFormat::obj ? read_obj(bytes.view(), name, path.parent_path(), material, warnings)
+                                             : read_ply(bytes.view(), name);
         out.file = file;
-        for (std::string& warning : warnings) reader.mesh_warnings.push_back(std::move(warning) + asked_by());
+        for (std::string& warning : warnings.messages) {
+            if (reader.mesh_warnings.size() < max_remarks)
+                reader.mesh_warnings.push_back(std::move(warning) + asked_by());
+            else
+                ++reader.remarks_dropped;
+        }
         return out;
-    } catch (const Error& error) {
+    } catch (const Error& error) { // the reader does not know which object asks
         throw Error(error.code(), error.what() + asked_by());
     }
 }
@@ -62,7 +78,13 @@ Mesh load_mesh(SceneReader& reader, const Block& block, const Material& material
     if (triangles != no_node && file != no_node) fail(reader, file, "a mesh has `triangles` or a `file`, not both");
     if (triangles == no_node && file == no_node) fail(reader, block.node(), "a mesh needs `triangles` or a `file`");
     if (file == no_node && !block.has("material")) fail(reader, block.node(), "lacks the key `material`");
+    const NodeId source = triangles != no_node ? triangles : file;
     Mesh out = triangles != no_node ? load_triangles(reader, triangles) : load_mesh_file(reader, file, material);
+    if (out.triangles.empty()) warn(reader, source, "the mesh has no triangles");
+    reader.mesh_elements += std::max(out.positions.size() / 3, out.triangles.size());
+    if (reader.mesh_elements > max_mesh_elements)
+        fail(reader, source, "the meshes up to this one have more than " + std::to_string(max_mesh_elements) + " triangles",
+             ExitCode::memory);
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace lanecast {
 namespace {
@@ -33,11 +34,11 @@ std::vector<std::string> formatted_warnings(SceneReader& reader) {
         out.push_back(
             format_diagnostic(reader.name, source, spans[i].begin, "warning", place + ": " + reader.remarks[i].message));
     }
-    if (reader.remarks_dropped > 0)
-        out.push_back(reader.name + ": warning: " + std::to_string(reader.remarks_dropped) + " more warnings");
     if (reader.document.trailing_text)
         out.push_back(format_diagnostic(reader.name, source, find_trailing_text(source), "warning", trailing_message));
     std::ranges::move(reader.mesh_warnings, std::back_inserter(out));
+    if (reader.remarks_dropped > 0)
+        out.push_back(reader.name + ": warning: " + std::to_string(reader.remarks_dropped) + " more warnings");
     return out;
 }
 
@@ -52,7 +53,8 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const st
     reader.document.source = text;
     if (!parse_json(reader.document)) fail_syntax(reader);
     if (reader.document.trailing_text && options.strict)
-        throw Error(ExitCode::scene, format_diagnostic(reader.name, text, find_trailing_text(text), "error", trailing_message));
+        throw Error(ExitCode::scene, format_diagnostic(reader.name, text, find_trailing_text(text), "error",
+                                                       trailing_message + std::string(strict_suffix)));
 
     LoadedScene out;
     out.description.file = name;
@@ -62,7 +64,6 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const st
     out.description.objects = load_objects(reader, scene.find("objects"));
     out.description.lights = load_lights(reader, scene.find("lights"));
     out.warnings = formatted_warnings(reader);
-    if (options.strict && !out.warnings.empty()) throw Error(ExitCode::asset, out.warnings.front());
     return out;
 }
 

@@ -1,5 +1,7 @@
 #include "scene/read_file.hpp"
 
+#include "scene/huge_pages.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
@@ -33,6 +35,7 @@ FileBytes read_file(const std::filesystem::path& file) {
     // One byte more than a regular file holds, so that its end is seen without growing.
     std::size_t room = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 16;
     out.data = std::make_unique_for_overwrite<char[]>(room);
+    prefer_huge_pages(out.data.get(), room);
     for (;;) {
         if (out.size == room) {
             auto larger = std::make_unique_for_overwrite<char[]>(room * 2);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <unordered_set>
 
 namespace lanecast {
 namespace {
@@ -23,17 +24,19 @@ constexpr std::string_view skipped[] = {
 struct ObjReader {
     TextCursor cursor;
     std::filesystem::path directory;
-    std::vector<std::string>& warnings;
+    MeshWarnings& warnings;
     Mesh mesh = {};
     MaterialLibrary library = {};
     std::uint32_t material = 0; ///< current, index into library.materials
+    std::unordered_set<std::string> libraries_read = {};
     bool library_missing = false;
     std::uint32_t largest_forward = 0; ///< largest index that named a vertex not yet read; 1-based
     const char* forward_place = nullptr;
     std::vector<std::uint32_t> corners = {}; ///< of the face being read
 
     void warn(const char* place, const std::string& what) {
-        if (warnings.size() < max_mesh_warnings) warnings.push_back(cursor.message(place, "warning", what));
+        if (warnings.strict) cursor.fail(place, what + std::string(strict_suffix));
+        if (warnings.messages.size() < max_mesh_warnings) warnings.messages.push_back(cursor.message(place, "warning", what));
     }
 
     void read_vertex() {
@@ -89,10 +92,13 @@ struct ObjReader {
     }
 
     void read_library(const char* place, std::string_view file_name) {
+        if (!libraries_read.insert(std::string(file_name)).second) return; // some exporters name it before every object
         const std::filesystem::path file = directory / file_name;
         FileBytes bytes;
-        if (file_name.find('\0') == std::string_view::npos) bytes = read_file(file);
-        else bytes.fault = "Invalid name";
+        if (file_name.find('\0') == std::string_view::npos)
+            bytes = read_file(file);
+        else
+            bytes.fault = "Invalid name";
         if (!bytes.fault.empty()) {
             library_missing = true;
             warn(place, "cannot read the materials `" + printable(file_name) + "`: " + bytes.fault);
@@ -105,7 +111,9 @@ struct ObjReader {
     /// `mtllib a.mtl b.mtl`, or one name with blanks in it.
     void read_libraries() {
         std::string_view names = cursor.rest_of_line();
-        const bool one_file = names.find_first_of(" \t") == std::string_view::npos || !read_file(directory / names).fault.size();
+        std::error_code ignored;
+        const bool one_file =
+            names.find_first_of(" \t") == std::string_view::npos || std::filesystem::is_regular_file(directory / names, ignored);
         if (one_file) return read_library(names.data(), names);
         while (!names.empty()) {
             const std::size_t length = std::min(names.find_first_of(" \t"), names.size());
@@ -138,7 +146,7 @@ struct ObjReader {
 } // namespace
 
 Mesh read_obj(std::string_view text, const std::string& name, const std::filesystem::path& directory, const Material& base,
-              std::vector<std::string>& warnings) {
+              MeshWarnings& warnings) {
     ObjReader reader{.cursor = {.text = text, .name = name}, .directory = directory, .warnings = warnings};
     reader.library.materials.push_back(base);
     for (; reader.cursor.at != reader.cursor.end; reader.cursor.skip_statement()) reader.read_statement();

@@ -1,123 +1,15 @@
 // The body of PLY files. Elements other than `vertex` and `face`, and properties other than x, y, z and the vertex indices, are
 // skipped.
 
-#include "scene/diagnostic.hpp"
-#include "scene/error.hpp"
+#include "scene/huge_pages.hpp"
 #include "scene/mesh_file.hpp"
-#include "scene/ply_header.hpp"
-#include "scene/read_number.hpp"
+#include "scene/ply_body.hpp"
 #include "scene/scene_format.hpp"
-#include "scene/text_tools.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace lanecast {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-
-template <class T>
-T load(const char* at, bool swap) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, at, sizeof(T));
-    if (swap) std::reverse(bytes, bytes + sizeof(T));
-    T value;
-    std::memcpy(&value, bytes, sizeof(T));
-    return value;
-}
-
-double load(const char* at, PlyType type, bool swap) {
-    switch (type) {
-    case PlyType::int8:
-        return static_cast<signed char>(*at);
-    case PlyType::uint8:
-        return static_cast<unsigned char>(*at);
-    case PlyType::int16:
-        return load<std::int16_t>(at, swap);
-    case PlyType::uint16:
-        return load<std::uint16_t>(at, swap);
-    case PlyType::int32:
-        return load<std::int32_t>(at, swap);
-    case PlyType::uint32:
-        return load<std::uint32_t>(at, swap);
-    case PlyType::float32:
-        return static_cast<double>(load<float>(at, swap));
-    case PlyType::float64:
-        return load<double>(at, swap);
-    }
-    return 0;
-}
-
-/// Values one after the other, whatever the format. Every number of a PLY file fits a double exactly.
-class BinaryBody {
-public:
-    BinaryBody(std::string_view bytes, const PlyHeader& header, const std::string& name)
-        : bytes_(bytes), at_(header.body), swap_(header.format == PlyFormat::big_endian), name_(name) {}
-
-    double next(PlyType type) {
-        require(size_of(type));
-        start_ = at_;
-        at_ += size_of(type);
-        return load(bytes_.data() + start_, type, swap_);
-    }
-    void skip(PlyType type, std::size_t count) {
-        if (count > (bytes_.size() - at_) / size_of(type)) require(bytes_.size());
-        at_ += count * size_of(type);
-    }
-    /// Whether `count` values of a type can follow.
-    [[nodiscard]] bool has_room(PlyType type, std::size_t count) const { return count <= (bytes_.size() - at_) / size_of(type); }
-    [[noreturn]] void fail(const std::string& message) const {
-        throw Error(ExitCode::asset, name_ + ": error: at byte " + std::to_string(start_) + ": " + message);
-    }
-
-private:
-    void require(std::size_t size) {
-        if (size <= bytes_.size() - at_) return;
-        start_ = bytes_.size();
-        fail("the file ends too early");
-    }
-
-    std::string_view bytes_;
-    std::size_t at_, start_ = 0;
-    bool swap_;
-    const std::string& name_;
-};
-
-class TextBody {
-public:
-    TextBody(std::string_view bytes, const PlyHeader& header, const std::string& name)
-        : bytes_(bytes), at_(bytes.data() + header.body), start_(at_), end_(bytes.data() + bytes.size()), name_(name) {}
-
-    double next(PlyType) {
-        while (at_ != end_ && is_space(*at_)) ++at_;
-        start_ = at_;
-        double value = 0;
-        if (at_ == end_) fail("the file ends too early");
-        if (!read_number(at_, end_, value) || (at_ != end_ && !is_space(*at_))) {
-            while (at_ != end_ && !is_space(*at_)) ++at_;
-            fail("must be a number, got `" + printable({start_, static_cast<std::size_t>(at_ - start_)}, 40) + "`");
-        }
-        return value;
-    }
-    void skip(PlyType type, std::size_t count) {
-        for (; count > 0; --count) next(type);
-    }
-    [[nodiscard]] bool has_room(PlyType, std::size_t count) const { return count <= static_cast<std::size_t>(end_ - at_); }
-    [[noreturn]] void fail(const std::string& message) const {
-        throw Error(ExitCode::asset,
-                    format_diagnostic(name_, bytes_, static_cast<std::size_t>(start_ - bytes_.data()), "error", message));
-    }
-
-private:
-    static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-
-    std::string_view bytes_;
-    const char *at_, *start_, *end_;
-    const std::string& name_;
-};
 
 template <class Body>
 std::size_t next_list_length(Body& body, const PlyProperty& list) {
@@ -135,16 +27,25 @@ void skip_property(Body& body, const PlyProperty& property) {
     body.skip(property.type, property.is_list ? next_list_length(body, property) : 1);
 }
 
-template <class Body>
-void read_vertices(Body& body, const PlyElement& element, std::vector<glm::dvec3>& positions) {
-    std::vector<int> axes; // of each property; 3: not a coordinate
+/// Of each property: 0 to 2 for x, y and z; 3 for what is no coordinate.
+std::vector<int> axes_of(const PlyElement& element) {
+    std::vector<int> axes;
     for (const PlyProperty& property : element.properties) {
         const std::size_t axis = std::string_view("xyz").find(property.name);
         axes.push_back(property.name.size() == 1 && axis < 3 && !property.is_list ? static_cast<int>(axis) : 3);
     }
-    for (int axis = 0; axis < 3; ++axis)
-        if (std::ranges::count(axes, axis) != 1) body.fail("a vertex must have the properties x, y and z, once each");
+    return axes;
+}
+
+bool holds_indices(const PlyProperty& property) {
+    return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+template <class Body>
+void read_vertices(Body& body, const PlyElement& element, std::vector<glm::dvec3>& positions) {
+    const std::vector<int> axes = axes_of(element);
     positions.reserve(element.count);
+    prefer_huge_pages(positions.data(), positions.capacity() * sizeof(glm::dvec3));
     for (std::uint64_t i = 0; i < element.count; ++i) {
         glm::dvec3 position;
         for (std::size_t p = 0; p < axes.size(); ++p) {
@@ -184,14 +85,32 @@ void read_polygon(Body& body, const PlyProperty& list, std::uint64_t face, std::
     if (mesh.triangles.size() > max_mesh_elements) body.fail("more than " + std::to_string(max_mesh_elements) + " triangles");
 }
 
+/// The common case at speed: triangles as one byte 3 and three 4-byte indices. Stops before the first face that is anything else,
+/// and returns how many it read.
+std::uint64_t read_plain_triangles(BinaryBody& body, const PlyElement& element, std::uint64_t vertex_count, Mesh& mesh) {
+    const PlyProperty& list = element.properties[0];
+    const bool plain = element.properties.size() == 1 && !body.swapped() && size_of(list.count_type) == 1 &&
+                       (list.type == PlyType::int32 || list.type == PlyType::uint32);
+    if (!plain) return 0;
+    std::uint64_t face = 0;
+    for (; face < element.count; ++face) {
+        const char* const at = body.bytes(13);
+        if (at == nullptr || *at != 3) return face;
+        std::array<std::uint32_t, 3> triangle;
+        std::memcpy(triangle.data(), at + 1, 12);
+        if (std::max({triangle[0], triangle[1], triangle[2]}) >= vertex_count) return face; // negative ones are large, too
+        mesh.triangles.push_back(triangle);
+        body.advance(13);
+    }
+    return face;
+}
+std::uint64_t read_plain_triangles(TextBody&, const PlyElement&, std::uint64_t, Mesh&) { return 0; }
+
 template <class Body>
 void read_faces(Body& body, const PlyElement& element, std::uint64_t vertex_count, Mesh& mesh) {
-    const auto holds_indices = [](const PlyProperty& property) {
-        return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
-    };
-    if (std::ranges::count_if(element.properties, holds_indices) != 1) body.fail("a face must have one list of `vertex_indices`");
     mesh.triangles.reserve(element.count);
-    for (std::uint64_t face = 0; face < element.count; ++face) {
+    prefer_huge_pages(mesh.triangles.data(), mesh.triangles.capacity() * sizeof(mesh.triangles[0]));
+    for (std::uint64_t face = read_plain_triangles(body, element, vertex_count, mesh); face < element.count; ++face) {
         for (const PlyProperty& property : element.properties) {
             if (holds_indices(property))
                 read_polygon(body, property, face, vertex_count, mesh);
@@ -220,14 +139,20 @@ Mesh read_body(Body body, const PlyHeader& header, const PlyElement& vertices) {
 
 Mesh read_ply(std::string_view bytes, const std::string& name) {
     const PlyHeader header = read_ply_header(bytes, name);
-    const auto only = [&](std::string_view element_name) {
-        const auto found = std::ranges::find(header.elements, element_name, &PlyElement::name);
-        if (found == header.elements.end() || std::ranges::count(header.elements, element_name, &PlyElement::name) > 1)
-            throw Error(ExitCode::asset, name + ": error: a PLY mesh must have one element `" + std::string(element_name) + "`");
-        return found;
+    const auto fail = [&](std::size_t offset, const std::string& message) {
+        throw Error(ExitCode::asset, format_diagnostic(name, bytes, offset, "error", message));
     };
-    only("face");
-    const PlyElement& vertices = *only("vertex");
+    for (const std::string_view wanted : {"vertex", "face"})
+        if (std::ranges::count(header.elements, wanted, &PlyElement::name) != 1)
+            fail(0, "a PLY mesh must have one element `" + std::string(wanted) + "`");
+    const PlyElement& vertices = *std::ranges::find(header.elements, "vertex", &PlyElement::name);
+    const PlyElement& faces = *std::ranges::find(header.elements, "face", &PlyElement::name);
+    const std::vector<int> axes = axes_of(vertices);
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::ranges::count(axes, axis) != 1) fail(vertices.offset, "a vertex must have the properties x, y and z, once each");
+    if (std::ranges::count_if(faces.properties, holds_indices) != 1)
+        fail(faces.offset, "a face must have one list `vertex_indices`");
+
     if (header.format == PlyFormat::ascii) return read_body(TextBody(bytes, header, name), header, vertices);
     return read_body(BinaryBody(bytes, header, name), header, vertices);
 }

@@ -66,6 +66,9 @@ extern const std::span<const BlockSpec> lights;          ///< ambient, direction
 /// Every block, for tests.
 [[nodiscard]] std::span<const BlockSpec* const> scene_format();
 
+/// What an error adds that is a warning without --strict.
+inline constexpr std::string_view strict_suffix = " (a warning, but --strict was given)";
+
 /// Keys that are skipped without a word: `_anything`, `comment`, `$schema`.
 [[nodiscard]] bool is_comment_key(std::string_view key);
 

@@ -96,7 +96,7 @@ void fail(const SceneReader& reader, NodeId node, const std::string& message, Ex
 }
 
 void warn(SceneReader& reader, NodeId node, const std::string& message) {
-    if (reader.strict) fail(reader, node, message + " (a warning, which --strict makes an error)");
+    if (reader.strict) fail(reader, node, message + std::string(strict_suffix));
     if (reader.remarks.size() < max_remarks)
         reader.remarks.push_back({node, message});
     else
@@ -149,8 +149,9 @@ Block::Block(SceneReader& reader, NodeId node, const BlockSpec& spec)
             check_value(reader, spec.keys[index], key + 1);
             continue;
         }
-        const std::vector<std::string_view> names = key_names(spec);
-        const std::string_view nearest = nearest_word(name, names);
+        // Not for the thousandth unknown key: the search costs a microsecond per known one.
+        const std::string_view nearest =
+            reader.remarks.size() < max_remarks ? nearest_word(name, key_names(spec)) : std::string_view();
         if (misspelt == no_node && !nearest.empty()) misspelt = key, meant = nearest;
         warn(reader, key,
              "unknown key of " + std::string(spec.title) +

@@ -26,6 +26,7 @@ struct SceneReader {
     JsonDocument document;
     std::vector<Remark> remarks;            ///< warnings about the scene's text
     std::size_t remarks_dropped = 0;        ///< beyond max_remarks
+    std::size_t mesh_elements = 0;          ///< triangles so far
     std::vector<std::string> mesh_warnings; ///< complete messages
 };
 inline constexpr std::size_t max_remarks = 50;

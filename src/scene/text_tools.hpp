@@ -18,7 +18,7 @@ namespace lanecast {
 /// empty.
 [[nodiscard]] std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
-/// The shortest decimal text that reads back as `value`.
+/// The shortest decimal text that reads back as `value`; whole numbers without an exponent.
 [[nodiscard]] std::string number_text(double value);
 
 } // namespace lanecast

@@ -77,7 +77,7 @@ glm::dvec3 apply(const AffineTransform& world_from_object, const glm::dvec3& p_o
 TransformClass classify(const glm::dmat3& linear) {
     const double size = largest(linear);
     if (!(size > 0) || !std::isfinite(size)) return TransformClass::affine;
-    const glm::dmat3 m = linear * (1 / power_of_two_near(size));
+    const glm::dmat3 m = linear / power_of_two_near(size);
     const glm::dmat3 gram = glm::transpose(m) * m; // scale^2 times the identity for a similarity
     const double scale2 = (gram[0][0] + gram[1][1] + gram[2][2]) / 3;
     double deviation = 0;
@@ -90,19 +90,19 @@ double uniform_scale(const glm::dmat3& linear) {
     const double size = largest(linear);
     if (!(size > 0) || !std::isfinite(size)) return 0;
     const double exact = power_of_two_near(size);
-    return exact * std::cbrt(std::abs(glm::determinant(linear * (1 / exact))));
+    return exact * std::cbrt(std::abs(glm::determinant(linear / exact)));
 }
 
 bool is_mirroring(const glm::dmat3& linear) {
     const double size = largest(linear);
     if (!(size > 0) || !std::isfinite(size)) return false;
-    return glm::determinant(linear * (1 / power_of_two_near(size))) < 0;
+    return glm::determinant(linear / power_of_two_near(size)) < 0;
 }
 
 glm::dmat3 inverted(const glm::dmat3& linear) {
     const double size = largest(linear);
     const double exact = size > 0 && std::isfinite(size) ? power_of_two_near(size) : 1;
-    return glm::inverse(linear * (1 / exact)) * (1 / exact);
+    return glm::inverse(linear / exact) / exact;
 }
 
 double condition(const glm::dmat3& linear, const glm::dmat3& inverse) {
@@ -118,7 +118,7 @@ double condition(const glm::dmat3& linear, const glm::dmat3& inverse) {
 
 glm::dvec3 unit(const glm::dvec3& v) {
     const double size = largest(v);
-    const glm::dvec3 near_one = v * (1 / power_of_two_near(size));
+    const glm::dvec3 near_one = v / power_of_two_near(size);
     return near_one / std::sqrt(glm::dot(near_one, near_one));
 }
 

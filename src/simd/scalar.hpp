@@ -4,7 +4,6 @@
 
 #include "simd/isa.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,6 +13,12 @@ namespace lanecast::inline LANECAST_ISA {
 
 template <class T>
 concept ScalarBatch = std::is_same_v<T, float> || std::is_same_v<T, double>;
+
+// Not <bit>: without optimisation its functions are emitted, and the linker would share one ISA's copy with all
+// (docs/building.md).
+LANECAST_INLINE std::uint32_t count_bits(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_popcount(b)); }
+/// b is not 0.
+LANECAST_INLINE std::uint32_t lowest_bit(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_ctz(b)); }
 
 template <class F>
 struct BatchTraits;
@@ -82,18 +87,18 @@ LANECAST_INLINE T reduce_max(T a) {
 
 /// x = m * 2^e with m in [sqrt(1/2), sqrt(2)), for normal x > 0.
 LANECAST_INLINE float split_exponent(float x, float& e) {
-    const std::int32_t i = std::bit_cast<std::int32_t>(x) - 0x3f3504f3; // sqrt(1/2)
+    const std::int32_t i = __builtin_bit_cast(std::int32_t, x) - 0x3f3504f3; // sqrt(1/2)
     e = static_cast<float>(i >> 23);
-    return std::bit_cast<float>((i & 0x007fffff) + 0x3f3504f3);
+    return __builtin_bit_cast(float, (i & 0x007fffff) + 0x3f3504f3);
 }
 LANECAST_INLINE double split_exponent(double x, double& e) {
-    const std::int64_t i = std::bit_cast<std::int64_t>(x) - 0x3fe6a09e667f3bcd;
+    const std::int64_t i = __builtin_bit_cast(std::int64_t, x) - 0x3fe6a09e667f3bcd;
     e = static_cast<double>(i >> 52);
-    return std::bit_cast<double>((i & 0x000fffffffffffff) + 0x3fe6a09e667f3bcd);
+    return __builtin_bit_cast(double, (i & 0x000fffffffffffff) + 0x3fe6a09e667f3bcd);
 }
 /// 2^n for an integral n in the exponent range of normal numbers.
-LANECAST_INLINE float power_of_two(float n) { return std::bit_cast<float>((static_cast<std::int32_t>(n) + 127) << 23); }
-LANECAST_INLINE double power_of_two(double n) { return std::bit_cast<double>((static_cast<std::int64_t>(n) + 1023) << 52); }
+LANECAST_INLINE float power_of_two(float n) { return __builtin_bit_cast(float, (static_cast<std::int32_t>(n) + 127) << 23); }
+LANECAST_INLINE double power_of_two(double n) { return __builtin_bit_cast(double, (static_cast<std::int64_t>(n) + 1023) << 52); }
 /// i * m + c modulo 2^32.
 LANECAST_INLINE std::int32_t multiply_add(std::int32_t i, std::uint32_t m, std::uint32_t c) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(i) * m + c);

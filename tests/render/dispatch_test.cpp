@@ -76,7 +76,11 @@ TEST_CASE("every table that can run answers: in an empty scene all rays miss") {
         CAPTURE(isa.name);
         float t[5] = {};
         std::int32_t slot[5] = {};
-        const RayStream rays{{zero, zero, zero}, {zero, zero, one}, nullptr, nullptr, t, slot, 5};
+        RayStream rays{};
+        for (int axis = 0; axis < 3; ++axis) rays.org[axis] = zero, rays.dir[axis] = axis == 2 ? one : zero;
+        rays.t = t;
+        rays.slot = slot;
+        rays.count = 5;
         find_kernels(isa.name, Precision::balanced)->closest_hit(empty, rays);
         for (int i = 0; i < 5; ++i) {
             CHECK(slot[i] == -1);

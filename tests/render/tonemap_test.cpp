@@ -64,10 +64,11 @@ TEST_CASE("the curve is sRGB's: thresholds where double says, one per bucket, in
     REQUIRE(curve.threshold.size() == srgb_steps + 2);
     int wrong_place = 0, crowded = 0, not_increasing = 0, wrong_steps = 0;
     for (std::size_t q = 1; q <= srgb_steps; ++q) {
-        const double edge = (static_cast<double>(q) - 0.5) / srgb_steps;
-        const double linear = edge <= 0.04045 ? edge / 12.92 : std::pow((edge + 0.055) / 1.055, 2.4);
+        const long double edge = (static_cast<long double>(q) - 0.5L) / srgb_steps;
+        const long double linear = edge <= 0.04045L ? edge / 12.92L : std::pow((edge + 0.055L) / 1.055L, 2.4L);
         const float threshold = curve.threshold[q], before = std::nextafter(threshold, -1.0f);
-        if (std::abs(static_cast<double>(threshold) / linear - 1) > 1.2e-7) ++wrong_place; // one float
+        // The smallest float at or above, but for an ambiguity of the last bits of double.
+        if (threshold < linear * (1 - 1e-15L) || before > linear * (1 + 1e-15L)) ++wrong_place;
         if (threshold <= curve.threshold[q - 1]) ++not_increasing;
         if (q > 1 && srgb_bucket(threshold) == srgb_bucket(curve.threshold[q - 1])) ++crowded;
         if (steps_of(curve, threshold) != static_cast<int>(q) || steps_of(curve, before) != static_cast<int>(q) - 1)
@@ -230,6 +231,12 @@ TEST_CASE("exposure is a factor of 2^EV before the view") {
         const double light = std::exp2(stops) * 0.002;
         CHECK(std::abs(mean_codes(View::srgb, 0.002f, 0, 0, stops)[0] - 255 * srgb(light)) <= 0.5 / 64 + 1e-4);
         CHECK(std::abs(mean_codes(View::plain, 0.002f, 0, 0, stops)[0] - 255 * light) <= 0.5 + 1e-4);
+    }
+    for (const double stops : {-3.5, -0.499, 0.3, 0.5, 1.7, 2.25}) {
+        Film scaled = film;
+        for (auto& plane : scaled.rgb)
+            for (float& value : plane) value *= static_cast<float>(std::exp2(stops));
+        CHECK(tonemap(film, View::srgb, stops).rgb == tonemap(scaled, View::srgb).rgb);
     }
     CHECK(mean_codes(View::srgb, 1, 1, 1, -1e300)[0] == 0);
     CHECK(mean_codes(View::srgb, 1, 1, 1, 1e300)[0] == 255);

@@ -1,10 +1,13 @@
 // The tree over whole scenes: complete, conservative, ordered, bounded in depth, the same for any number of threads.
 
+#include "scene/build_bvh.hpp"
+#include "scene/bvh_binary.hpp"
 #include "scene/bvh_quality.hpp"
 #include "scene/geometry_support.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace lanecast;
@@ -12,11 +15,7 @@ using namespace lanecast::test;
 
 namespace {
 
-Object sphere_at(const glm::dvec3& position, double radius) {
-    Object object;
-    object.shape = Sphere{radius, position};
-    return object;
-}
+Object sphere_at(const glm::dvec3& position, double radius) { return make_object(Sphere{radius, position}); }
 
 Object triangles_in_cube(Random& random, int count, double size) {
     std::vector<std::array<glm::dvec3, 3>> triangles;
@@ -24,9 +23,7 @@ Object triangles_in_cube(Random& random, int count, double size) {
         const glm::dvec3 p = random.point(1);
         triangles.push_back({p, p + random.point(size), p + random.point(size)});
     }
-    Object object;
-    object.shape = triangle_mesh(triangles);
-    return object;
+    return make_object(triangle_mesh(triangles));
 }
 
 } // namespace
@@ -84,17 +81,63 @@ TEST_CASE("the same bytes for one to four threads") {
     for (int threads = 2; threads <= 4; ++threads) CHECK(difference(one, flatten(scene, scene.render, threads)) == "");
 }
 
-TEST_CASE("depth is bounded where area heuristics peel off one primitive at a time") {
-    for (const double ratio : {0.9, 0.5, 0.25}) {
-        SceneDescription scene; // each sphere at a fixed ratio of the distance of the one before
-        double x = 1;
-        for (int i = 0; i < 5000; ++i, x *= ratio) {
-            if (x < 0x1p-55) x = 1;
-            scene.objects.push_back(sphere_at({x, 0, 0}, 0.1 * x));
+TEST_CASE("depth is bounded where the area heuristic alone goes deeper") {
+    // Boxes at 2^-k on each of three axes: every cut peels off a few of one axis.
+    std::vector<BuildRef> refs;
+    for (int k = 0; k < 120; ++k)
+        for (int axis = 0; axis < 3; ++axis) {
+            BuildRef ref{};
+            const float x = std::ldexp(1.0f, -k);
+            for (int i = 0; i < 3; ++i) ref.lo[i] = (i == axis ? 0.9f : -0.1f) * x, ref.hi[i] = (i == axis ? 1.1f : 0.1f) * x;
+            ref.item = static_cast<std::uint32_t>(refs.size());
+            refs.push_back(ref);
         }
-        const SceneArrays arrays = flatten(scene, scene.render, 1);
-        CHECK(check_tree(arrays) == "");
-        CHECK(arrays.quality.depth <= max_bvh_depth);
+    const BinaryTree tree = build_binary(refs.data(), refs.size(), 1);
+    std::vector<int> seen(refs.size());
+    int depth = 0;
+    const auto walk = [&](const auto& self, std::uint32_t index, int inner_above) -> void {
+        const BinaryNode& node = tree.nodes[index];
+        if (!is_leaf(node)) {
+            depth = std::max(depth, inner_above + 1);
+            self(self, node.children, inner_above + 1);
+            self(self, node.children + 1, inner_above + 1);
+            return;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) ++seen[refs[i].item];
+    };
+    walk(walk, 0, 0);
+    CHECK(depth <= max_bvh_depth);
+    CHECK(depth > max_bvh_depth - 8); // the limit was felt
+    CHECK(std::count(seen.begin(), seen.end(), 1) == static_cast<std::ptrdiff_t>(refs.size()));
+
+    const std::uint32_t first_slot[primitive_kind_count + 1] = {0, 360, 360, 360, 360, 360};
+    CHECK(build_bvh(refs.data(), refs.size(), first_slot, 1).quality.depth <= max_bvh_depth);
+}
+
+TEST_CASE("leaves: up to eight of one kind where splitting does not pay, never two kinds") {
+    SceneDescription scene;
+    for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({0, 0, 0}, 1));
+    CHECK(flatten(scene, {}, 1).quality.leaf_sizes[8] == 1);
+    scene.objects.push_back(sphere_at({0, 0, 0}, 1));
+    CHECK(flatten(scene, {}, 1).quality.leaves == 2);
+
+    scene.objects.clear();
+    for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({300.0 * i, 0, 0}, 1)); // clearly apart
+    CHECK(flatten(scene, {}, 1).quality.leaf_sizes[1] == 8);
+    scene.objects.clear();
+    for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({0.1 * i, 0, 0}, 1)); // hardly
+    CHECK(flatten(scene, {}, 1).quality.leaves == 1);
+
+    for (const int each : {4, 40}) { // small ranges and binned ones
+        scene.objects.clear();
+        for (int i = 0; i < each; ++i) {
+            scene.objects.push_back(sphere_at({0, 0, 0}, 1));
+            scene.objects.push_back(make_object(Cylinder{1, 2}));
+        }
+        const SceneArrays mixed = flatten(scene, {}, 1);
+        CHECK(check_tree(mixed) == "");
+        if (each == 4) CHECK(mixed.quality.leaves == 2);
+        CHECK(mixed.quality.leaves <= static_cast<std::uint32_t>(each));
     }
 }
 

@@ -42,6 +42,13 @@ std::vector<Transformation> random_transformations(Random& random, bool similari
     return result;
 }
 
+Object make_object(const Shape& shape, std::vector<Transformation> transformations) {
+    Object object;
+    object.shape = shape;
+    object.transformations = std::move(transformations);
+    return object;
+}
+
 Mesh triangle_mesh(std::vector<std::array<glm::dvec3, 3>> triangles) {
     Mesh mesh;
     for (const auto& triangle : triangles) {

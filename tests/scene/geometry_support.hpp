@@ -3,9 +3,11 @@
 
 #include "scene/flatten.hpp"
 
+#include <array>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -31,7 +33,10 @@ struct Random {
 /// Every length times 2^k: geometry, transformations, camera, lights, attenuation.
 [[nodiscard]] SceneDescription scaled_scene(SceneDescription scene, int k);
 
-/// A tetrahedron's or one triangle's mesh.
+/// Not inlined: g++ 12 warns of uninitialised strings where a variant's alternative is replaced in sight.
+[[nodiscard]] Object make_object(const Shape& shape, std::vector<Transformation> transformations = {});
+
+/// Corners are not shared.
 [[nodiscard]] Mesh triangle_mesh(std::vector<std::array<glm::dvec3, 3>> triangles);
 
 /// Empty, or what is wrong with the tree and the arrays: each primitive in exactly one leaf, inside all boxes above it, blocks

@@ -3,7 +3,7 @@
 
 #include "scene/shared_files.hpp"
 
-#include <chrono>
+#include <string>
 
 using namespace lanecast;
 
@@ -14,17 +14,31 @@ TEST_CASE("the public scenes load") {
         const char* file;
         std::size_t objects, lights, warnings;
     };
-    for (const auto& [file, objects, lights, warnings] :
-         {Expected{"c.json", 5, 4, 0}, {"c_transformed.json", 5, 4, 0}, {"cornell.json", 8, 256, 0}, {"e.json", 6, 5, 0}, {"g.json", 6, 5, 0},
-          {"g_schlicks.json", 6, 5, 0}, {"i.json", 5, 2, 0}, {"spheres164.json", 165, 4, 0}, {"trailing_text.json", 4, 4, 1},
-          {"typo_and_large_mesh.json", 4, 4, 1}}) {
+    for (const auto& [file, objects, lights, warnings] : {Expected{"c.json", 5, 4, 0},
+                                                          {"c_transformed.json", 5, 4, 0},
+                                                          {"cornell.json", 8, 256, 0},
+                                                          {"e.json", 6, 5, 0},
+                                                          {"g.json", 6, 5, 0},
+                                                          {"g_schlicks.json", 6, 5, 0},
+                                                          {"i.json", 4, 2, 0},
+                                                          {"spheres164.json", 165, 4, 0},
+                                                          {"trailing_text.json", 4, 4, 1},
+                                                          {"typo_and_large_mesh.json", 5, 4, 1}}) {
         CAPTURE(file);
         const LoadedScene scene = load_scene(*scenes / file);
         CHECK(scene.description.objects.size() == objects);
         CHECK(scene.description.lights.size() == lights);
         CHECK(scene.warnings.size() == warnings);
-        for (const std::string& warning : scene.warnings) MESSAGE(warning);
+        CHECK_THROWS_AS((void)load_scene(*scenes / (warnings > 0 ? file : "four_component_colour.json"), {.strict = true}),
+                        Error);
     }
+    CHECK(load_scene(*scenes / "typo_and_large_mesh.json")
+              .warnings[0]
+              .find("typo_and_large_mesh.json:19700:17: warning: /objects/0/material/shiniess: unknown key of a material; did "
+                    "you mean `shininess`?\n") != std::string::npos);
+    CHECK(load_scene(*scenes / "trailing_text.json")
+              .warnings[0]
+              .find("trailing_text.json:77:1: warning: text after the end of the scene is ignored\n/*\n^") != std::string::npos);
 }
 
 TEST_CASE("a colour of four components is an error") {
@@ -36,29 +50,35 @@ TEST_CASE("a colour of four components is an error") {
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::scene);
         const std::string message = error.what();
-        MESSAGE(message);
-        CHECK(message.find("four_component_colour.json:17:25: error: /objects/0/material/transmissive: must be a colour [r, g, b], got a list of 4\n") !=
-              std::string::npos);
+        CHECK(message.find("four_component_colour.json:17:25: error: /objects/0/material/transmissive: must be a colour [r, g, "
+                           "b], got a list of 4\n") != std::string::npos);
     }
 }
-TEST_CASE("times") {
-    const auto t0 = std::chrono::steady_clock::now();
-    auto time = [&, last = t0](const char* what) mutable {
-        const auto now = std::chrono::steady_clock::now();
-        MESSAGE(what << " " << std::chrono::duration<double, std::milli>(now - last).count() << " ms");
-        last = now;
+
+TEST_CASE("the public meshes load") {
+    const auto assets = shared_directory("assets");
+    if (!assets) return;
+    struct Expected {
+        const char* file;
+        std::size_t vertices, triangles, materials;
     };
-    const auto scenes = shared_directory("scenes"), assets = shared_directory("assets");
-    for (int i = 0; i < 3; ++i) {
-        (void)load_scene(*scenes / "typo_and_large_mesh.json");
-        time("typo");
-        for (const char* f : {"dragon/dragon_vrip.ply", "sponza_crytek/sponza.obj", "bunny/bun_zipper.ply", "sanmiguel/sanmiguel_part.ply", "cornell/cornell_box.obj","spot/spot.obj","suzanne/suzanne.obj","teapot/teapot.obj"}) {
-            const std::string text = std::string(R"({"camera":{},"lights":[],"objects":[{"type":"mesh","file":")") + f + "\"}]}";
-            LoadedScene s = parse_scene(text, "x", *assets);
-            const Mesh& m = std::get<Mesh>(s.description.objects[0].shape);
-            time(f);
-            MESSAGE(m.positions.size() << " " << m.triangles.size()<<" "<<m.materials.size());
-            for (const std::string& warning : s.warnings) MESSAGE(warning);
-        }
+    for (const auto& [file, vertices, triangles, materials] : {Expected{"dragon/dragon_vrip.ply", 437645, 871414, 0},
+                                                               {"dragon/dragon_vrip_res3.ply", 22998, 47794, 0},
+                                                               {"bunny/bun_zipper.ply", 35947, 69451, 0},
+                                                               {"sponza_crytek/sponza.obj", 153635, 279163, 27},
+                                                               {"teapot/teapot.obj", 3644, 6320, 0},
+                                                               {"spot/spot.obj", 2930, 5856, 0},
+                                                               {"suzanne/suzanne.obj", 507, 968, 0},
+                                                               {"cornell/cornell_box.obj", 76, 36, 6}}) {
+        CAPTURE(file);
+        const std::string text =
+            R"({"camera": {}, "lights": [], "objects": [{"type": "mesh", "file": ")" + std::string(file) + "\"}]}";
+        const LoadedScene scene = parse_scene(text, "mesh.json", *assets, {.strict = true});
+        const Mesh& mesh = std::get<Mesh>(scene.description.objects[0].shape);
+        CHECK(mesh.positions.size() == vertices);
+        CHECK(mesh.triangles.size() == triangles);
+        CHECK(mesh.materials.size() == materials);
+        CHECK(mesh.triangle_material.size() == (materials > 0 ? triangles : 0));
+        CHECK(mesh.file == file);
     }
 }

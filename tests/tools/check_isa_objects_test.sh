@@ -33,6 +33,8 @@ expect() {
 compile good.o -mavx2 -mfma -ffp-contract=off <<<'namespace lanecast::inline avx2 {
     template <class T> __attribute__((noinline)) T twice(T x) { return x + x; }
     extern constinit const int kernels = 1;
+    inline constexpr float table[4] = {1, 2, 3, 4};
+    const float* f(int i) { return table + i; }
     float f(float a, float b, float c) { return twice(a * b + c); } }'
 expect "" "avx2 good.o"
 expect "forbidden instructions" "scalar good.o"

@@ -88,9 +88,9 @@ std::uint32_t queue_shadow_rays(Wavefront<F>& w, const RayQueue<F>& queue, std::
             compress_store<F>(l.shadow.dir[axis] + n, axis == 0 ? dir.x : axis == 1 ? dir.y : dir.z, asked);
         }
         compress_store_int<F>(l.shadow.source + n, select(inward, source_inward(slot), source_outward(slot)), asked);
-        n += static_cast<std::uint32_t>(std::popcount(l.asked[v]));
+        n += count_bits(l.asked[v]);
     }
-    l.shadow.tmax = light.kind == LightKind::directional ? std::numeric_limits<Scalar<F>>::infinity() : Scalar<F>(1);
+    l.shadow.tmax = light.kind == LightKind::directional ? no_limit<Scalar<F>> : Scalar<F>(1);
     return n;
 }
 
@@ -123,7 +123,7 @@ std::int32_t trace_shadows(Wavefront<F>& w, const RayQueue<F>& queue, std::uint3
                 }
                 store(l.visible[c] + i, sample == 0 ? visible : load<F>(l.visible[c] + i) + visible);
             }
-            ray += static_cast<std::uint32_t>(std::popcount(l.asked[v]));
+            ray += count_bits(l.asked[v]);
         }
     }
     return samples;

@@ -70,13 +70,13 @@ template <Query query, FloatBatch F>
 LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
                                    std::uint32_t first_slot, std::uint32_t count) {
     using S = Scalar<F>;
-    const auto [kx, ky, kz] = packet.axes;
+    const Axes axes = packet.axes;
     bool hit_any = false;
     for (std::uint32_t lane = 0; lane < count; ++lane) {
         const auto vertex = [&](std::uint32_t v) {
             const float* const row = block + lane + 3 * v * count;
-            return Vec3<F>{F(S(row[static_cast<std::uint32_t>(kx) * count])), F(S(row[static_cast<std::uint32_t>(ky) * count])),
-                           F(S(row[static_cast<std::uint32_t>(kz) * count]))};
+            return Vec3<F>{F(S(row[static_cast<std::uint32_t>(axes.kx) * count])), F(S(row[static_cast<std::uint32_t>(axes.ky) * count])),
+                           F(S(row[static_cast<std::uint32_t>(axes.kz) * count]))};
         };
         const Vec3<F> a = vertex(0), b = vertex(1), c = vertex(2);
         const std::uint32_t slot = first_slot + lane;

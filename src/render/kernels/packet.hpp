@@ -13,21 +13,22 @@ template <FloatBatch F>
 struct Packet {
     using S = Scalar<F>;
     static constexpr std::uint32_t capacity = packet_vectors * width<F>;
+    static constexpr std::uint32_t stride = capacity + width<F>; ///< compression stores whole vectors
 
-    alignas(64) S org[3][capacity];
-    S dir[3][capacity];
+    alignas(64) S org[3][stride];
+    S dir[3][stride];
     // Slabs: a box is entered at max((near - org_near) * rcp), left at min((far - org_far) * rcp). The origins are moved apart by
     // 16 u (|org| + M), M the scene's largest coordinate, which covers the rounding of the slab test (6 u), that of the sheared
     // vertices (3 u) and of the quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
-    S org_near[3][capacity];
-    S org_far[3][capacity];
-    S rcp[3][capacity];
-    S shear[3][capacity]; ///< dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz]
-    S tmin[capacity];
-    S t[capacity]; ///< nearest so far; -1: a lane without a ray, or whose question is answered
-    std::int32_t slot[capacity];
-    std::int32_t source[capacity];
-    std::int32_t after[capacity];
+    S org_near[3][stride];
+    S org_far[3][stride];
+    S rcp[3][stride];
+    S shear[3][stride]; ///< (dir[kx], dir[ky], 1) / dir[kz]
+    S tmin[stride];
+    S t[stride]; ///< nearest so far; -1: a lane without a ray, or whose question is answered
+    std::int32_t slot[stride];
+    std::int32_t source[stride];
+    std::int32_t after[stride];
 
     int vectors;
     std::uint32_t count; ///< rays; the lanes beyond repeat the last one with t = -1
@@ -63,12 +64,28 @@ LANECAST_INLINE Int<F> packet_key(const Vec3<F>& d) {
            select(d.z < F(0), Int<F>(4), Int<F>(0));
 }
 
-/// Fills the derived arrays and intervals from org, dir and t of `count` rays that share `key`.
+namespace detail {
+
+/// Gives the lanes that are not valid a harmless direction of the packet's key, and nothing to look for.
 template <FloatBatch F>
-void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, float max_coordinate) {
+void kill_lanes(Packet<F>& packet, std::uint32_t i, Mask<F> valid) {
+    using S = Scalar<F>;
+    for (int axis = 0; axis < 3; ++axis) {
+        const S slope = (axis == packet.axes.kz ? S(1) : S(0.5)) * (packet.negative[axis] ? S(-1) : S(1));
+        store(packet.org[axis] + i, select(valid, load<F>(packet.org[axis] + i), F(0)));
+        store(packet.dir[axis] + i, select(valid, load<F>(packet.dir[axis] + i), F(slope)));
+    }
+    store(packet.t + i, select(valid, load<F>(packet.t + i), F(S(-1))));
+}
+
+} // namespace detail
+
+/// Fills the derived arrays and intervals from org, dir, tmin, t, source of packet.count rays that share `key`.
+template <FloatBatch F>
+void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
     using S = Scalar<F>;
     constexpr std::uint32_t W = width<F>;
-    packet.count = count;
+    const std::uint32_t count = packet.count;
     packet.vectors = static_cast<int>((count + W - 1) / W);
     packet.axes = axes_of(key >> 3);
     for (int axis = 0; axis < 3; ++axis) packet.negative[axis] = ((key >> axis) & 1) != 0;
@@ -80,44 +97,37 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
         }
         packet.tmin[i] = 0;
         packet.t[i] = -1;
-        packet.slot[i] = -1;
         packet.source[i] = no_source;
         packet.after[i] = -1;
     }
 
-    // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
-    for (std::uint32_t i = 0; i < padded; i += W) {
-        const F limit(std::numeric_limits<S>::max());
-        Mask<F> valid = abs(load<F>(packet.dir[packet.axes.kz] + i)) > F(0);
-        for (int axis = 0; axis < 3; ++axis) {
-            valid = valid & (abs(load<F>(packet.org[axis] + i)) <= limit) & (abs(load<F>(packet.dir[axis] + i)) <= limit);
-        }
-        if (all(valid)) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-            const S slope = axis == packet.axes.kz ? S(1) : S(0.5);
-            store(packet.org[axis] + i, select(valid, load<F>(packet.org[axis] + i), F(0)));
-            store(packet.dir[axis] + i,
-                  select(valid, load<F>(packet.dir[axis] + i), F(packet.negative[axis] ? -slope : slope)));
-        }
-        store(packet.t + i, select(valid, load<F>(packet.t + i), F(S(-1))));
-    }
-
+    const auto [kx, ky, kz] = packet.axes;
     const F largest = F(S(max_coordinate));
     const F infinity(std::numeric_limits<S>::infinity());
+    // Along the direction of travel, so that both signs are one code: near planes bound from below, far planes from above.
     F near_bound[3], far_bound[3], rcp_min[3], rcp_max[3];
+    F along[3];
     for (int axis = 0; axis < 3; ++axis) {
-        near_bound[axis] = packet.negative[axis] ? infinity : -infinity;
-        far_bound[axis] = -near_bound[axis];
+        along[axis] = F(packet.negative[axis] ? S(-1) : S(1));
+        near_bound[axis] = -infinity;
+        far_bound[axis] = infinity;
         rcp_min[axis] = infinity;
         rcp_max[axis] = -infinity;
     }
     F slope_min[2] = {infinity, infinity}, slope_max[2] = {-infinity, -infinity};
     F t_max(S(-1));
-    const auto [kx, ky, kz] = packet.axes;
     for (std::uint32_t i = 0; i < padded; i += W) {
+        // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
+        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) + (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
+                      (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
+        const F t = load<F>(packet.t + i);
+        const Mask<F> valid = (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        if (!all(valid)) detail::kill_lanes(packet, i, valid);
+
+        store(packet.slot + i, Int<F>(-1));
         const F dz = load<F>(packet.dir[kz] + i);
         const F inv_dz = F(1) / dz;
-        const F sx = load<F>(packet.dir[kx] + i) / dz, sy = load<F>(packet.dir[ky] + i) / dz;
+        const F sx = load<F>(packet.dir[kx] + i) * inv_dz, sy = load<F>(packet.dir[ky] + i) * inv_dz;
         store(packet.shear[0] + i, sx);
         store(packet.shear[1] + i, sy);
         store(packet.shear[2] + i, inv_dz);
@@ -127,21 +137,20 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
         slope_max[1] = max(slope_max[1], sy);
         // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
         const F least = abs(dz) * F(S(8.7e-19));
+#pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F o = load<F>(packet.org[axis] + i);
             const F d = load<F>(packet.dir[axis] + i);
-            const F away = (abs(o) + largest) * F(S(9.6e-7)); // 16 u
-            const F magnitude = max(abs(d), least);
-            const F rcp = F(1) / (packet.negative[axis] ? -magnitude : magnitude);
-            const F o_near = packet.negative[axis] ? o - away : o + away;
-            const F o_far = packet.negative[axis] ? o + away : o - away;
+            const F away = along[axis] * ((abs(o) + largest) * F(S(9.6e-7))); // 16 u
+            const F rcp = F(1) / copysign(max(abs(d), least), along[axis]);
+            const F o_near = o + away, o_far = o - away;
             store(packet.rcp[axis] + i, rcp);
             store(packet.org_near[axis] + i, o_near);
             store(packet.org_far[axis] + i, o_far);
             rcp_min[axis] = min(rcp_min[axis], rcp);
             rcp_max[axis] = max(rcp_max[axis], rcp);
-            near_bound[axis] = packet.negative[axis] ? min(near_bound[axis], o_near) : max(near_bound[axis], o_near);
-            far_bound[axis] = packet.negative[axis] ? max(far_bound[axis], o_far) : min(far_bound[axis], o_far);
+            near_bound[axis] = max(near_bound[axis], along[axis] * o_near);
+            far_bound[axis] = min(far_bound[axis], along[axis] * o_far);
         }
         t_max = max(t_max, load<F>(packet.t + i));
     }
@@ -151,8 +160,8 @@ void finish_packet(Packet<F>& packet, std::uint32_t count, std::int32_t key, flo
     for (int axis = 0; axis < 3; ++axis) {
         packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
         packet.rcp_max[axis] = reduce_max(rcp_max[axis]);
-        packet.interval_near[axis] = packet.negative[axis] ? reduce_min(near_bound[axis]) : reduce_max(near_bound[axis]);
-        packet.interval_far[axis] = packet.negative[axis] ? reduce_max(far_bound[axis]) : reduce_min(far_bound[axis]);
+        packet.interval_near[axis] = packet.negative[axis] ? -reduce_max(near_bound[axis]) : reduce_max(near_bound[axis]);
+        packet.interval_far[axis] = packet.negative[axis] ? -reduce_min(far_bound[axis]) : reduce_min(far_bound[axis]);
     }
 }
 

@@ -41,6 +41,10 @@ LANECAST_INLINE I source_inward(I slot) {
     return slot + slot + I(1);
 }
 
+/// The tmax of a ray without one: finite, so that a ray along a plane, whose t is infinite, misses it.
+template <class S>
+inline constexpr S no_limit = std::numeric_limits<S>::max();
+
 /// Up to `capacity` rays, dense, and what tracing them gave. Arrays have a vector of slack.
 template <FloatBatch F>
 struct RayBatch {
@@ -51,7 +55,7 @@ struct RayBatch {
     S* t;               ///< out: of the hit, in units of |dir|
     std::int32_t* slot; ///< out: -1 for a miss
     S tmin;             ///< of every ray; a hit has t > tmin
-    S tmax;             ///< and t <= tmax
+    S tmax;             ///< and t <= tmax, finite
     const S* tmins;     ///< per ray, or null
     const S* tmaxs;     ///< per ray, or null
     const std::int32_t* after; ///< per ray, or null: hits at t == tmin count when their scene id is larger than this
@@ -64,7 +68,7 @@ struct RayBatch {
         t = layout.take<S>(n);
         slot = layout.take<std::int32_t>(n);
         tmin = 0;
-        tmax = std::numeric_limits<S>::infinity();
+        tmax = no_limit<S>;
         tmins = nullptr;
         tmaxs = nullptr;
         after = nullptr;

@@ -61,7 +61,8 @@ LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& o
                        select(z_wins, v.z, select(y_wins, v.y, v.x))};
     };
     const Vec3<F> d = permute(dir);
-    const ShearedRay<F> ray{permute(org), {d.x / d.z, d.y / d.z, F(1) / d.z}};
+    const F inv_dz = F(1) / d.z;
+    const ShearedRay<F> ray{permute(org), {d.x * inv_dz, d.y * inv_dz, inv_dz}};
     const TriangleEdges<F> edges = triangle_edges(ray, permute(a), permute(b), permute(c));
     const F inv_det = F(1) / (edges.u + edges.v + edges.w);
     const Vec3<F> along_b = (b - a) * (edges.v * inv_det), along_c = (c - a) * (edges.w * inv_det);
@@ -79,7 +80,7 @@ LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org
         centre = select(same, splat<F>(sphere.centre), centre);
         radius = select(same, F(S(sphere.radius)), radius);
     });
-    const Vec3<F> n = normalize(fused(dir, t, org - centre));
+    const Vec3<F> n = normalize((org - centre) + dir * t);
     const F slack = radius * F(gamma_7<F>);
     return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>)};
 }
@@ -99,7 +100,7 @@ template <FloatBatch F>
 LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     const std::uint32_t record = static_cast<std::uint32_t>(slot) - scene.first_slot[2];
     const AffineRecord& affine = scene.affines[record];
-    const Vec3<F> p = normalize(fused(direction_to_object(affine, dir), t, point_to_object(affine, org)));
+    const Vec3<F> p = normalize(point_to_object(affine, org) + direction_to_object(affine, dir) * t);
     return affine_point(scene, record, p, p);
 }
 
@@ -112,9 +113,9 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
     const CylinderCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
     const Mask<F> enters = t == crossing.ends.t0;
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
-    const Vec3<F> q = fused(d, t, o);
+    const Vec3<F> q = o + d * t;
     const F zero(0), half(S(0.5)), inv_radius = F(1) / sqrt(q.x * q.x + q.z * q.z);
-    const F side = copysign(half, q.y);
+    const F side = copysign(half, select(enters, -d.y, d.y)); // q.y is noise on a disc far thinner than it is far
     const Vec3<F> on_side{q.x * inv_radius, max(min(q.y, half), -half), q.z * inv_radius};
     const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, on_side);
     const Vec3<F> n = select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{on_side.x, zero, on_side.z});

@@ -11,62 +11,93 @@ namespace lanecast::inline LANECAST_ISA {
 
 inline constexpr std::uint32_t max_batch_rays = 1024;
 
+/// Lanes of vector `vector` of a batch that stand in a packet from `place` on.
+struct Segment {
+    std::uint16_t vector, place;
+    std::uint32_t lanes;
+};
+
 template <FloatBatch F>
 struct TraceScratch {
     Packet<F> packet;
-    std::uint16_t order[max_batch_rays];
+    Segment segments[Packet<F>::capacity + 1];
     std::int32_t keys[max_batch_rays + 16];
 };
 
 namespace detail {
 
-/// Rays first .. first + count of `rays`, by way of `order` unless it is null.
+/// Moves lanes to or from packet arrays: whole vectors, the common case, without shuffling.
 template <FloatBatch F>
-void gather_packet(Packet<F>& packet, const RayBatch<F>& rays, const std::uint16_t* order, std::uint32_t first,
-                   std::uint32_t count) {
+LANECAST_INLINE void pack(Scalar<F>* to, F lanes, Mask<F> mask, bool whole) {
+    if (whole)
+        store(to, lanes);
+    else
+        compress_store<F>(to, lanes, mask);
+}
+template <FloatBatch F>
+LANECAST_INLINE void pack_int(std::int32_t* to, Int<F> lanes, Mask<F> mask, bool whole) {
+    if (whole)
+        store(to, lanes);
+    else
+        compress_store_int<F>(to, lanes, mask);
+}
+
+/// Fills the packet with rays of `key`, from vector `vector` on, which moves past those that found place. Returns the number of
+/// segments.
+template <FloatBatch F>
+std::uint32_t gather_packet(TraceScratch<F>& scratch, const RayBatch<F>& rays, std::uint32_t n, std::int32_t key,
+                            std::uint32_t& vector) {
     using S = Scalar<F>;
-    if (order == nullptr) {
-        for (std::uint32_t i = 0; i < count; i += width<F>) {
-            for (int axis = 0; axis < 3; ++axis) {
-                store(packet.org[axis] + i, load<F>(rays.org[axis] + first + i));
-                store(packet.dir[axis] + i, load<F>(rays.dir[axis] + first + i));
-            }
-            store(packet.tmin + i, rays.tmins ? load<F>(rays.tmins + first + i) : F(rays.tmin));
-            store(packet.t + i, rays.tmaxs ? load<F>(rays.tmaxs + first + i) : F(rays.tmax));
-            store(packet.slot + i, Int<F>(-1));
-            store(packet.source + i, load_int<F>(rays.source + first + i));
-            if (rays.after) store(packet.after + i, load_int<F>(rays.after + first + i));
-        }
-        return;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t ray = order[first + i];
+    constexpr std::uint32_t W = width<F>;
+    Packet<F>& packet = scratch.packet;
+    std::uint32_t count = 0, segments = 0;
+    for (; vector * W < n; ++vector) {
+        const std::uint32_t i = vector * W;
+        const Mask<F> mask = (load_int<F>(scratch.keys + i) == Int<F>(key)) & first_lanes<F>(n - i);
+        const std::uint32_t lanes = bits(mask);
+        if (lanes == 0) continue;
+        const auto taken = count_bits(lanes);
+        if (count + taken > Packet<F>::capacity) break;
+        const bool whole = lanes == all_lanes<F>;
         for (int axis = 0; axis < 3; ++axis) {
-            packet.org[axis][i] = rays.org[axis][ray];
-            packet.dir[axis][i] = rays.dir[axis][ray];
+            pack<F>(packet.org[axis] + count, load<F>(rays.org[axis] + i), mask, whole);
+            pack<F>(packet.dir[axis] + count, load<F>(rays.dir[axis] + i), mask, whole);
         }
-        packet.tmin[i] = rays.tmins ? rays.tmins[ray] : S(rays.tmin);
-        packet.t[i] = rays.tmaxs ? rays.tmaxs[ray] : S(rays.tmax);
-        packet.slot[i] = -1;
-        packet.source[i] = rays.source[ray];
-        packet.after[i] = rays.after ? rays.after[ray] : -1;
+        pack_int<F>(packet.source + count, load_int<F>(rays.source + i), mask, whole);
+        pack<F>(packet.tmin + count, rays.tmins ? load<F>(rays.tmins + i) : F(S(rays.tmin)), mask, whole);
+        pack<F>(packet.t + count, rays.tmaxs ? load<F>(rays.tmaxs + i) : F(S(rays.tmax)), mask, whole);
+        if (rays.after) pack_int<F>(packet.after + count, load_int<F>(rays.after + i), mask, whole);
+        scratch.segments[segments++] = {static_cast<std::uint16_t>(vector), static_cast<std::uint16_t>(count), lanes};
+        count += taken;
     }
+    packet.count = count;
+    return segments;
 }
 
 template <FloatBatch F>
-void scatter_packet(const Packet<F>& packet, const RayBatch<F>& rays, const std::uint16_t* order, std::uint32_t first) {
-    for (std::uint32_t i = 0; i < packet.count; ++i) {
-        const std::uint32_t ray = order == nullptr ? first + i : order[first + i];
-        rays.t[ray] = packet.t[i];
-        rays.slot[ray] = packet.slot[i];
+void scatter_packet(const TraceScratch<F>& scratch, const RayBatch<F>& rays, std::uint32_t segments) {
+    const Packet<F>& packet = scratch.packet;
+    for (std::uint32_t k = 0; k < segments; ++k) {
+        const Segment& segment = scratch.segments[k];
+        const std::uint32_t i = segment.vector * static_cast<std::uint32_t>(width<F>);
+        if (segment.lanes == all_lanes<F>) {
+            store(rays.t + i, load<F>(packet.t + segment.place));
+            store(rays.slot + i, load_int<F>(packet.slot + segment.place));
+            continue;
+        }
+        const Mask<F> mask = mask_from_bits<F>(segment.lanes);
+        store(rays.t + i, select(mask, expand_load<F>(packet.t + segment.place, mask), load<F>(rays.t + i)));
+        store(rays.slot + i, select(mask, expand_load_int<F>(packet.slot + segment.place, mask), load_int<F>(rays.slot + i)));
     }
 }
 
 } // namespace detail
 
-/// Rays whose slopes spread wider than this share too few nodes for a packet. Measured: docs/performance.md.
+/// Rays whose slopes spread wider than this share too few nodes for a packet, unless the tree is tiny. Measured:
+/// docs/performance.md.
 template <FloatBatch F>
 inline constexpr Scalar<F> max_packet_spread = Scalar<F>(1);
+inline constexpr std::uint32_t tiny_tree_leaves = 16;
 
 /// Fills t and slot of the first n (<= max_batch_rays) rays; Query::any: some hit's slot.
 template <Query query, FloatBatch F>
@@ -75,42 +106,26 @@ void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, boo
     if (n == 0) return;
     const std::uint64_t begin = ticks();
     constexpr std::uint32_t W = width<F>;
-    std::uint32_t group_size[32] = {};
-    bool mixed = false;
+    std::uint32_t keys = 0; // bit k: some ray has key k
     for (std::uint32_t i = 0; i < n; i += W) {
-        const Int<F> key = packet_key<F>({load<F>(rays.dir[0] + i), load<F>(rays.dir[1] + i), load<F>(rays.dir[2] + i)});
+        const Int<F> key = packet_key<F>(load<F>(rays.dir, i));
         store(scratch.keys + i, key);
-        mixed |= !all((key == Int<F>(scratch.keys[0])) | !first_lanes<F>(n - i));
+        for_each_unique<F>(key, first_lanes<F>(n - i), [&](std::int32_t k, Mask<F>) { keys |= 1u << k; });
     }
-    const std::uint16_t* order = nullptr;
-    if (mixed) { // counting sort: stable, so that neighbours stay neighbours
-        for (std::uint32_t i = 0; i < n; ++i) ++group_size[scratch.keys[i]];
-        std::uint32_t next[32], sum = 0;
-        for (int key = 0; key < 32; ++key) {
-            next[key] = sum;
-            sum += group_size[key];
-        }
-        for (std::uint32_t i = 0; i < n; ++i) scratch.order[next[scratch.keys[i]]++] = static_cast<std::uint16_t>(i);
-        order = scratch.order;
-    } else {
-        group_size[scratch.keys[0]] = n;
-    }
-
     Occupancy occupancy{};
-    std::uint32_t first = 0;
-    for (int key = 0; key < 32; ++key) {
-        for (const std::uint32_t end = first + group_size[key]; first < end;) {
-            const std::uint32_t count = end - first < Packet<F>::capacity ? end - first : Packet<F>::capacity;
-            detail::gather_packet(scratch.packet, rays, order, first, count);
-            finish_packet(scratch.packet, count, key, scene.max_coordinate);
-            if (scratch.packet.spread <= max_packet_spread<F> || brute_force)
+    const bool packets_only = brute_force || scene.leaf_count <= tiny_tree_leaves;
+    for_each_bit(keys, [&](std::uint32_t key) {
+        for (std::uint32_t vector = 0; vector * W < n;) {
+            const std::uint32_t segments = detail::gather_packet(scratch, rays, n, static_cast<std::int32_t>(key), vector);
+            if (segments == 0) break;
+            finish_packet(scratch.packet, static_cast<std::int32_t>(key), scene.max_coordinate);
+            if (packets_only || scratch.packet.spread <= max_packet_spread<F>)
                 traverse_packet<query>(scene, scratch.packet, brute_force, occupancy);
             else
                 traverse_singles<query>(scene, scratch.packet, occupancy);
-            detail::scatter_packet(scratch.packet, rays, order, first);
-            first += count;
+            detail::scatter_packet(scratch, rays, segments);
         }
-    }
+    });
     stats.rays += n;
     stats.batches += 1;
     stats.first_lanes += occupancy.first_lanes;

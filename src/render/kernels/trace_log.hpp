@@ -62,6 +62,16 @@ void log_rays(const Wavefront<F>& w, RayQueue<F>& queue, RayKind kind, std::int3
     }
 }
 
+/// Fresnel's factor of the lanes of `mirrors`.
+template <FloatBatch F>
+void log_fresnel(TraceLog& log, const std::int32_t* records, std::uint32_t mirrors, F fresnel) {
+    alignas(64) Scalar<F> lanes[width<F>];
+    store(lanes, fresnel);
+    for_each_bit(mirrors, [&](std::uint32_t lane) {
+        if (TraceRecord* const record = record_at(log, records[lane])) record->fresnel = static_cast<float>(lanes[lane]);
+    });
+}
+
 /// The colours of the rays, once they are complete.
 template <FloatBatch F>
 void log_colors(TraceLog& log, const RayQueue<F>& queue) {

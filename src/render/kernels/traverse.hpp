@@ -27,6 +27,7 @@ LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhN
     std::uint32_t entered = 0;
     for (int c = 0; c < 8; c += width<F>) {
         F enter(0), leave{S(packet.t_max)};
+#pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F near_plane = load_eight<F>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
             const F far_plane = load_eight<F>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
@@ -56,6 +57,7 @@ LANECAST_INLINE std::uint32_t enter_vectors(const Packet<F>& packet, const BvhNo
     for_each_bit(vectors, [&](std::uint32_t vector) {
         const std::uint32_t i = vector * width<F>;
         F enter(0), leave = load<F>(packet.t + i);
+#pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F rcp = load<F>(packet.rcp[axis] + i);
             enter = max((near_plane[axis] - load<F>(packet.org_near[axis] + i)) * rcp, enter);
@@ -122,7 +124,7 @@ void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force
     for_each_bit(last, [&](std::uint32_t vector) {
         const std::uint32_t i = vector * width<F>;
         occupancy.last_lanes += width<F>;
-        occupancy.last_active += static_cast<std::uint64_t>(std::popcount(bits(load<F>(packet.t + i) >= F(0))));
+        occupancy.last_active += count_bits(bits(load<F>(packet.t + i) >= F(0)));
     });
 }
 

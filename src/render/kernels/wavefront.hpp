@@ -135,7 +135,7 @@ struct Wavefront {
     void allocate(ScratchLayout& layout, const RenderJob& job_) {
         job = &job_;
         surface.allocate(layout);
-        light.allocate(layout, job_);
+        if (job_.scene.light_count > 0) light.allocate(layout, job_);
         trace = layout.take<TraceScratch<F>>(1);
         const auto levels = static_cast<std::uint64_t>(job_.depth) + 1;
         const bool recursive = (job_.scene.features & (feature_reflective | feature_transmissive)) != 0;

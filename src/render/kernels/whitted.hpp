@@ -96,7 +96,7 @@ struct Spawn {
         if (queue.seed != nullptr)
             compress_store_int<F>(queue.seed + n, multiply_add(load_int<F>(parents.seed + i), 747796405u, seed_step), traced);
         if (queue.record != nullptr) compress_store_int<F>(queue.record + n, load_int<F>(parents.record + i), traced);
-        queue.count += static_cast<std::uint32_t>(std::popcount(children.traced[v]));
+        queue.count += count_bits(children.traced[v]);
     }
 };
 
@@ -138,6 +138,8 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
         const Int<F> back = select(inside, inward, outward), onward = select(inside, outward, inward);
         const Spawn<F> spawn{job, queue, v};
         const Transmission<F> through = transmit(d, n, index, inside);
+        if (job.log != nullptr)
+            log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
         if (reflects) {
             const Vec3<F> factor = job.schlick != 0 ? reflective * through.fresnel : reflective;
             const Vec3<F> opaque{F(1) - transmissive.x, F(1) - transmissive.y, F(1) - transmissive.z};

@@ -1,0 +1,177 @@
+// lanecast render: a scene in, its pictures out.
+
+#include "cli/commands.hpp"
+#include "cli/frame_request.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/parse_value.hpp"
+#include "cli/print.hpp"
+#include "cli/progress.hpp"
+#include "cli/render_report.hpp"
+#include "cli/write_pictures.hpp"
+#include "render/dispatch.hpp"
+#include "render/scrub.hpp"
+#include "scene/error.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+namespace lanecast {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct RenderRequest {
+    FrameRequest frame;
+    std::string output;
+    std::optional<Tile> crop;
+    int tile_size = 32;
+    View view = default_view;
+    double exposure = 0;
+    bool float_pixels = false, stats = false, no_volatile_metadata = false;
+};
+
+constexpr KeySpec tile_key{.name = "tile", .kind = ValueKind::whole, .range = {.low = 1, .high = 64}};
+constexpr KeySpec exposure_key{.name = "exposure", .range = {.low = -100, .high = 100}};
+
+void add_options(CLI::App& command, RenderRequest& request) {
+    add_scene_options(command, request.frame);
+    command
+        .add_option("-o,--output", request.output,
+                    "Name of the pictures, which gets .exr and .png; with one of these at its end only that file is written. "
+                    "Default: the scene's name, in the current directory")
+        ->type_name("NAME");
+    command
+        .add_option_function<std::string>(
+            "--crop", [&](const std::string& text) { request.crop = parse_crop("--crop", text); },
+            "Render only the pixels X0 <= x < X1, Y0 <= y < Y1, counted from the top left corner")
+        ->type_name("X0,Y0,X1,Y1");
+    command
+        .add_option_function<std::string>(
+            "--view",
+            [&](const std::string& text) {
+                const std::optional<View> view = view_from_name(text);
+                if (!view)
+                    throw CLI::ValidationError("--view", "must be plain, srgb, reinhard, aces or neutral, got '" + text + "'");
+                request.view = *view;
+            },
+            "How the PNG shows the radiance; default srgb")
+        ->type_name("plain|srgb|reinhard|aces|neutral");
+    command
+        .add_option_function<std::string>(
+            "--exposure", [&](const std::string& text) { request.exposure = parse_number("--exposure", text, exposure_key); },
+            "The PNG shows the radiance times 2^EV; default 0")
+        ->type_name("EV");
+    command.add_flag("--float", request.float_pixels, "32-bit floats in the EXR instead of 16-bit halves");
+    command.add_flag("--no-volatile-metadata", request.no_volatile_metadata,
+                     "Leave out of the EXR what differs from run to run: ISA, threads, times, ray counts, host, date");
+    command.add_flag("--stats", request.stats, "Print where the time went and which rays were traced");
+    command
+        .add_option_function<std::string>(
+            "--tile",
+            [&](const std::string& text) { request.tile_size = static_cast<int>(parse_number("--tile", text, tile_key)); },
+            "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it")
+        ->type_name("N");
+    add_frame_options(command, request.frame);
+    add_flatten_options(command, request.frame);
+}
+
+[[nodiscard]] FrameOptions requested_frame(const RenderRequest& request, const RequestedScene& scene) {
+    FrameOptions options = frame_options(request.frame, scene);
+    options.tile_size = request.tile_size;
+    if (!request.crop) return options;
+    options.crop = *request.crop;
+    if (options.crop.x1 > options.width || options.crop.y1 > options.height)
+        throw Error(ExitCode::usage, "--crop: must lie in the image, " + std::to_string(options.width) + "x" +
+                                         std::to_string(options.height) + ", and reaches to " + std::to_string(options.crop.x1) +
+                                         "," + std::to_string(options.crop.y1));
+    return options;
+}
+
+[[nodiscard]] Frame render_with_progress(const RenderRequest& request, const KernelTable& kernels, const SceneArrays& arrays,
+                                         const RequestedScene& scene, const FrameOptions& options) {
+    if (request.frame.quiet) return render_frame(kernels, arrays, scene.description.camera, scene.settings, options);
+    ProgressDisplay display;
+    return render_frame(kernels, arrays, scene.description.camera, scene.settings, options,
+                        [&](double done, std::uint64_t rays) { display.show(done, rays); });
+}
+
+void warn_of_values(const RenderRequest& request, Film& film) {
+    const std::uint64_t not_finite = scrub(film);
+    const std::uint64_t beyond = request.float_pixels ? 0 : count_beyond_half(film);
+    if (request.frame.quiet) return;
+    if (not_finite > 0)
+        print_message("warning: " + std::to_string(not_finite) +
+                      " values of the film are not finite; NaN becomes 0, infinity the largest number");
+    if (beyond > 0)
+        print_message("warning: " + std::to_string(beyond) +
+                      " values are beyond 65504, the largest half, and are clamped to it; --float keeps them");
+}
+
+[[nodiscard]] PictureOptions picture_options(const RenderRequest& request, const RequestedScene& scene,
+                                             const RenderReport& report) {
+    PictureOptions options;
+    const double half_field = scene.description.camera.field * std::numbers::pi / 360;
+    options.exr.screen_window_width = static_cast<float>(2 * std::tan(half_field) * report.options.width / report.options.height);
+    options.exr.float_pixels = request.float_pixels;
+    options.exr.threads = options.threads = thread_count(request.frame);
+    options.exr.attributes = exr_attributes(report, !request.no_volatile_metadata);
+    options.view = request.view;
+    options.exposure = request.exposure;
+    return options;
+}
+
+void print_summary(const PictureNames& names, const RenderReport& report, const Film& film) {
+    std::string files = names.exr.string();
+    if (!names.png.empty()) files += (files.empty() ? "" : " and ") + names.png.string();
+    print_message("wrote " + files + " (" + std::to_string(film.width) + "x" + std::to_string(film.height) + ", " +
+                  short_count(static_cast<double>(ray_count(report.stats))) + " rays in " + short_seconds(report.stats.seconds) +
+                  ")");
+}
+
+int render(const RenderRequest& request) {
+    RequestedScene scene = load_requested(request.frame);
+    const FrameOptions asked = requested_frame(request, scene);
+    const KernelTable& kernels = *find_kernels(request.frame.isa, scene.settings.precision);
+    const PictureNames names = picture_names(request.output, request.frame.scene);
+    probe_outputs(names); // before the work, not after it
+    const SceneArrays arrays = flatten_requested(request.frame, scene);
+
+    const InterruptScope interrupt;
+    FrameOptions options = asked;
+    options.stop = &interrupt.stop();
+    Frame frame = render_with_progress(request, kernels, arrays, scene, options);
+    interrupt.check();
+    warn_of_values(request, frame.film);
+
+    RenderReport report{.scene = std::filesystem::path(request.frame.scene).filename().string(),
+                        .settings = scene.settings,
+                        .options = options,
+                        .stats = frame.stats,
+                        .isa = kernels.isa,
+                        .width = kernels.width,
+                        .load_seconds = scene.load_seconds,
+                        .flatten_seconds = arrays.bake_seconds,
+                        .build_seconds = arrays.build_seconds};
+    const auto begin = Clock::now();
+    write_pictures(names, frame.film, picture_options(request, scene, report), [&] { interrupt.check(); });
+    report.write_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!request.frame.quiet) print_summary(names, report, frame.film);
+    if (request.stats) print_result(stats_table(report, arrays));
+    return static_cast<int>(ExitCode::done);
+}
+
+} // namespace
+
+void add_render(CLI::App& app, Command& chosen) {
+    CLI::App* const command = app.add_subcommand("render", "Render a scene to an EXR and a PNG");
+    const auto request = std::make_shared<RenderRequest>();
+    add_options(*command, *request);
+    command->final_callback([&chosen, request] { chosen = [request] { return render(*request); }; });
+}
+
+} // namespace lanecast

@@ -1,0 +1,43 @@
+#pragma once
+// How much of what a scene holds.
+
+#include "scene/description.hpp"
+#include "scene/scene_arrays.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace lanecast {
+
+struct SceneCounts {
+    std::array<std::size_t, 4> objects{}; ///< by Shape: spheres, cylinders, planes, meshes
+    std::array<std::size_t, 4> lights{};  ///< by Light: ambient, directional, point, spot
+    std::size_t triangles = 0;            ///< of the file, degenerate ones included
+};
+
+[[nodiscard]] inline SceneCounts count_scene(const SceneDescription& scene) {
+    SceneCounts counts;
+    for (const Object& object : scene.objects) {
+        ++counts.objects[object.shape.index()];
+        if (const Mesh* const mesh = std::get_if<Mesh>(&object.shape)) counts.triangles += mesh->triangles.size();
+    }
+    for (const Light& light : scene.lights) ++counts.lights[light.index()];
+    return counts;
+}
+
+/// By PrimitiveKind, as they are rendered.
+[[nodiscard]] inline std::array<std::size_t, primitive_kind_count> count_primitives(const SceneArrays& arrays) {
+    std::array<std::size_t, primitive_kind_count> counts{};
+    for (std::size_t kind = 0; kind < counts.size(); ++kind) counts[kind] = arrays.first_slot[kind + 1] - arrays.first_slot[kind];
+    return counts;
+}
+
+inline constexpr const char* primitive_names[primitive_kind_count] = {"triangle", "sphere", "ellipsoid", "cylinder", "plane"};
+
+/// Spacing of floats at the largest coordinate, in scene units.
+[[nodiscard]] double grid_spacing(const SceneArrays& arrays);
+
+/// Whether anything is bounded.
+[[nodiscard]] inline bool has_bounds(const SceneArrays& arrays) { return arrays.bounds_min.x <= arrays.bounds_max.x; }
+
+} // namespace lanecast

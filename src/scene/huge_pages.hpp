@@ -1,0 +1,20 @@
+#pragma once
+// Large fresh buffers cost a page fault per 4 KiB. Measured, CPU time in a fresh process: the Stanford dragon (16.6 MB of PLY, 21
+// MB of mesh) loads in 25 ms without huge pages and in 15 ms with them.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sys/mman.h>
+
+namespace lanecast {
+
+/// Before the first write to `data`. Advice only: without huge pages nothing changes.
+inline void prefer_huge_pages(void* data, std::size_t bytes) noexcept {
+    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
+    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
+    if (begin < end) (void)::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
+
+} // namespace lanecast

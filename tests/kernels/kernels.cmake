@@ -1,0 +1,3 @@
+# Tests of the SIMD kernels, one executable per ISA.
+lanecast_isa_test(test_simd LABELS unit determinism SOURCES kernels/simd_test.cpp)
+lanecast_isa_test(test_pow LABELS unit determinism SOURCES kernels/pow_test.cpp)

@@ -1,0 +1,16 @@
+# Whole-program tests of the renderer, through the kernel tables of every ISA.
+lanecast_test(test_traversal LABELS unit determinism
+  SOURCES
+  render/traversal_test.cpp
+  scene/geometry_support.cpp)
+lanecast_test(test_determinism LABELS determinism
+  SOURCES
+  render/determinism_test.cpp
+  render/render_support.cpp
+  scene/geometry_support.cpp)
+lanecast_test(test_whitted LABELS unit
+  SOURCES
+  render/whitted_test.cpp
+  render/whitted_oracle.cpp
+  render/render_support.cpp
+  scene/geometry_support.cpp)
