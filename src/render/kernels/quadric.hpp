@@ -15,7 +15,7 @@ struct Crossing {
 };
 
 /// A sphere of radius r, f = org - centre. The closest approach is refined once with the product exact (`fused`), so that the
-/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and numerics 4.3.
+/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and docs/numerics.md.
 template <FloatBatch F>
 LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r, Mask<F> active) {
     using S = Scalar<F>;

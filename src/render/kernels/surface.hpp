@@ -34,7 +34,7 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
     into.error = select(lanes, from.error, into.error);
 }
 
-/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md, 1.1).
+/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
 template <FloatBatch F>
 LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot, Mask<F> lanes) {
     using S = Scalar<F>;
