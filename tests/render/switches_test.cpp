@@ -1,6 +1,7 @@
 // Each switch changes what it should, and nothing else; and a scene is not charged for what it does not use.
 
 #include "render/render_support.hpp"
+#include "render/tiles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -50,6 +51,10 @@ Film film_of_job(const SceneDescription& scene, const RenderSettings& settings, 
     const FrameOptions options{64, 48, {0, 0, 0, 0}, 1, 64};
     const SceneArrays arrays = flatten(scene, settings, 1);
     RenderJob job = make_job(arrays, scene.camera, settings, options);
+    const PixelOrder order = morton_order(options.tile_size);
+    job.pixel_order[0] = order.x.data();
+    job.pixel_order[1] = order.y.data();
+    job.pixel_order_count = order.count;
     edit(job);
     Film film = make_film(64, 48, {0, 0, 64, 48});
     job.film = view(film);
