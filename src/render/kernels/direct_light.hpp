@@ -62,8 +62,6 @@ std::uint32_t queue_shadow_rays(Wavefront<F>& w, const RayQueue<F>& queue, std::
     const bool soft = sample >= 0;
     LightBatch<F>& l = w.light;
     const SurfaceBatch<F>& surface = w.surface;
-    const Int<F> first_quadric(static_cast<std::int32_t>(scene.first_slot[1]));
-    const Int<F> first_plane(static_cast<std::int32_t>(scene.first_slot[4]));
     std::uint32_t n = 0;
     for (std::uint32_t v = 0; v * width<F> < queue.count; ++v) {
         const std::uint32_t i = v * width<F>;
@@ -82,7 +80,7 @@ std::uint32_t queue_shadow_rays(Wavefront<F>& w, const RayQueue<F>& queue, std::
         if (light.kind != LightKind::directional) dir = dir - (org - point);
         l.asked[v] = bits(asked);
         const Int<F> slot = load_int<F>(queue.rays.slot + i);
-        const Mask<F> inward = mask_from_bits<F>(surface.inside[v]) & (slot > first_quadric - Int<F>(1)) & (first_plane > slot);
+        const Mask<F> inward = mask_from_bits<F>(surface.inside[v]) & is_quadric<F>(scene, slot);
         for (int axis = 0; axis < 3; ++axis) {
             compress_store<F>(l.shadow.org[axis] + n, axis == 0 ? org.x : axis == 1 ? org.y : org.z, asked);
             compress_store<F>(l.shadow.dir[axis] + n, axis == 0 ? dir.x : axis == 1 ? dir.y : dir.z, asked);

@@ -5,6 +5,7 @@
 #include "render/kernels/packet.hpp"
 #include "render/kernels/plane.hpp"
 #include "render/kernels/quadric.hpp"
+#include "render/kernels/slots.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
 
@@ -59,8 +60,7 @@ LANECAST_INLINE bool hit_convex(const SceneView& scene, Packet<F>& packet, std::
     const Mask<F> inward = source == source_inward(this_slot);
     const Mask<F> enters = later<query>(packet, i, ends.t0, id) & !inward;
     const F t = select(enters, ends.t0, ends.t1);
-    const Mask<F> found =
-        ends.hit & !outward & (enters | later<query>(packet, i, ends.t1, id)) & (t <= load<F>(packet.t + i));
+    const Mask<F> found = ends.hit & !outward & (enters | later<query>(packet, i, ends.t1, id)) & (t <= load<F>(packet.t + i));
     if (none(found)) return false;
     take<query>(scene, packet, i, t, slot, found);
     return true;
@@ -75,7 +75,8 @@ LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, st
     for (std::uint32_t lane = 0; lane < count; ++lane) {
         const auto vertex = [&](std::uint32_t v) {
             const float* const row = block + lane + 3 * v * count;
-            return Vec3<F>{F(S(row[static_cast<std::uint32_t>(axes.kx) * count])), F(S(row[static_cast<std::uint32_t>(axes.ky) * count])),
+            return Vec3<F>{F(S(row[static_cast<std::uint32_t>(axes.kx) * count])),
+                           F(S(row[static_cast<std::uint32_t>(axes.ky) * count])),
                            F(S(row[static_cast<std::uint32_t>(axes.kz) * count]))};
         };
         const Vec3<F> a = vertex(0), b = vertex(1), c = vertex(2);
@@ -106,12 +107,13 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
     const auto first_slot = static_cast<std::uint32_t>(child);
     if (kind == PrimitiveKind::triangle) {
         const std::uint64_t offset = ((child >> child_block_shift) & 0x1ffffffu) * 64u;
-        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot, count);
+        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot,
+                                    count);
     }
     bool hit_any = false;
     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
         if (kind == PrimitiveKind::sphere) {
-            const SphereRecord& sphere = scene.spheres[slot - scene.first_slot[1]];
+            const SphereRecord& sphere = sphere_at(scene, slot);
             const Vec3<F> centre = splat<F>(sphere.centre);
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const std::uint32_t i = vector * width<F>;
@@ -120,7 +122,7 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
                 hit_any |= hit_convex<query>(scene, packet, i, ends, slot);
             });
         } else {
-            const AffineRecord& affine = scene.affines[slot - scene.first_slot[2]];
+            const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const std::uint32_t i = vector * width<F>;
                 const Vec3<F> o = point_to_object(affine, packet.origin(i));
@@ -137,8 +139,8 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
 /// Planes are in no tree: every packet meets all of them.
 template <Query query, FloatBatch F>
 void hit_planes(const SceneView& scene, Packet<F>& packet) {
-    for (std::uint32_t slot = scene.first_slot[4]; slot < scene.first_slot[5]; ++slot) {
-        const PlaneRecord& plane = scene.planes[slot - scene.first_slot[4]];
+    for (std::uint32_t slot = first_slot(scene, PrimitiveKind::plane); slot < end_slot(scene, PrimitiveKind::plane); ++slot) {
+        const PlaneRecord& plane = plane_at(scene, slot);
         for (int vector = 0; vector < packet.vectors; ++vector) {
             const std::uint32_t i = static_cast<std::uint32_t>(vector) * width<F>;
             const F t = plane_t(plane, packet.origin(i), packet.direction(i));

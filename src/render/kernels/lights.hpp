@@ -10,8 +10,8 @@ namespace lanecast::inline LANECAST_ISA {
 template <FloatBatch F>
 struct LightAt {
     Vec3<F> to_light;
-    Vec3<F> wi; ///< to_light, unit
-    F scale;    ///< attenuation
+    Vec3<F> wi;  ///< to_light, unit
+    F scale;     ///< attenuation
     Mask<F> lit; ///< inside the cone
 };
 
@@ -27,13 +27,15 @@ LANECAST_INLINE LightAt<F> light_at(const LightRecord& light, const Vec3<F>& poi
     const Vec3<F> wi = to_light * (F(1) / distance);
     F scale = F(S(1) / S(light.attenuation[0]));
     if (light.attenuation[1] != 0.0f || light.attenuation[2] != 0.0f)
-        scale = F(1) / (F(S(light.attenuation[0])) + distance * (F(S(light.attenuation[1])) + distance * F(S(light.attenuation[2]))));
-    const Mask<F> lit = light.kind == LightKind::spot ? -dot(wi, splat<F>(light.direction)) >= F(S(light.cos_cutoff)) : Mask<F>(true);
+        scale =
+            F(1) / (F(S(light.attenuation[0])) + distance * (F(S(light.attenuation[1])) + distance * F(S(light.attenuation[2]))));
+    const Mask<F> lit =
+        light.kind == LightKind::spot ? -dot(wi, splat<F>(light.direction)) >= F(S(light.cos_cutoff)) : Mask<F>(true);
     return {to_light, wi, scale, lit};
 }
 
-/// Point `sample` of a low-discrepancy sequence (Roberts' R2) on the unit disc, rotated per ray by its seed and per light: the same
-/// points at every width, thread and tile. Concentric map of Shirley and Chiu 1997.
+/// Point `sample` of a low-discrepancy sequence (Roberts' R2) on the unit disc, rotated per ray by its seed and per light: the
+/// same points at every width, thread and tile. Concentric map of Shirley and Chiu 1997.
 template <FloatBatch F>
 LANECAST_INLINE void disc_sample(Int<F> seed, std::uint32_t sample, std::uint32_t light, F& x, F& y) {
     using S = Scalar<F>;

@@ -13,9 +13,9 @@ LANECAST_INLINE Vec3<F> mirror(const Vec3<F>& d, const Vec3<F>& n) {
 
 template <FloatBatch F>
 struct Transmission {
-    Vec3<F> dir;     ///< unit; the mirror direction under total internal reflection
-    Mask<F> total;   ///< total internal reflection
-    F fresnel;       ///< Schlick's term for the reflection; 1 where there is no index
+    Vec3<F> dir;   ///< unit; the mirror direction under total internal reflection
+    Mask<F> total; ///< total internal reflection
+    F fresnel;     ///< Schlick's term for the reflection; 1 where there is no index
 };
 
 /// From index n1 into n2 where `index` is not 0, straight on elsewhere. `inside`: the ray is leaving the material.

@@ -38,7 +38,7 @@ struct Packet {
     // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
     S interval_near[3], interval_far[3];
     S rcp_min[3], rcp_max[3];
-    S t_max;  ///< largest t
+    S t_max; ///< largest t
 
     [[nodiscard]] LANECAST_INLINE ShearedRay<F> sheared(std::uint32_t i) const {
         return {{load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)},
@@ -116,10 +116,12 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
     F t_max(S(-1));
     for (std::uint32_t i = 0; i < padded; i += W) {
         // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
-        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) + (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
+        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) +
+                      (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
                       (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
         const F t = load<F>(packet.t + i);
-        const Mask<F> valid = (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        const Mask<F> valid =
+            (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
         if (!all(valid)) detail::kill_lanes(packet, i, valid);
 
         store(packet.slot + i, Int<F>(-1));

@@ -60,8 +60,8 @@ LANECAST_INLINE CylinderCrossing<F> cross_cylinder(const Vec3<F>& o, const Vec3<
     using S = Scalar<F>;
     const F infinity(std::numeric_limits<S>::infinity());
     const F a = d.x * d.x + d.z * d.z;
-    // 2^-100: only where `a` could have lost digits to underflow. On a flat disc y counts in units of its height, so a ray may well
-    // have 2^30 times more of it and still not run along the axis.
+    // 2^-100: only where `a` could have lost digits to underflow. On a flat disc y counts in units of its height, so a ray may
+    // well have 2^30 times more of it and still not run along the axis.
     const Mask<F> parallel = a <= d.y * d.y * F(S(7.9e-31));
     const Mask<F> within = (o.x * o.x + o.z * o.z) <= F(1);
     const Crossing<F> body = cross_sphere<F>({o.x, F(0), o.z}, {d.x, F(0), d.z}, F(1), active & (!parallel));

@@ -52,12 +52,12 @@ struct RayBatch {
     S* org[3];
     S* dir[3];
     std::int32_t* source;
-    S* t;               ///< out: of the hit, in units of |dir|
-    std::int32_t* slot; ///< out: -1 for a miss
-    S tmin;             ///< of every ray; a hit has t > tmin
-    S tmax;             ///< and t <= tmax, finite
-    const S* tmins;     ///< per ray, or null
-    const S* tmaxs;     ///< per ray, or null
+    S* t;                      ///< out: of the hit, in units of |dir|
+    std::int32_t* slot;        ///< out: -1 for a miss
+    S tmin;                    ///< of every ray; a hit has t > tmin
+    S tmax;                    ///< and t <= tmax, finite
+    const S* tmins;            ///< per ray, or null
+    const S* tmaxs;            ///< per ray, or null
     const std::int32_t* after; ///< per ray, or null: hits at t == tmin count when their scene id is larger than this
 
     void allocate(ScratchLayout& layout, std::uint32_t capacity) {

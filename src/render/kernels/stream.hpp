@@ -16,9 +16,16 @@ void trace_stream(const SceneView& scene, const RayStream& stream) {
     alignas(64) std::int32_t integers[2][slack];
     TraceScratch<F> scratch;
     RayKindStats stats{};
-    const RayBatch<F> rays{{floats[0], floats[1], floats[2]}, {floats[3], floats[4], floats[5]}, integers[0], floats[6],
-                           integers[1], S(0), no_limit<S>, stream.tmin != nullptr ? floats[7] : nullptr,
-                           stream.tmax != nullptr ? floats[8] : nullptr, nullptr};
+    const RayBatch<F> rays{{floats[0], floats[1], floats[2]},
+                           {floats[3], floats[4], floats[5]},
+                           integers[0],
+                           floats[6],
+                           integers[1],
+                           S(0),
+                           no_limit<S>,
+                           stream.tmin != nullptr ? floats[7] : nullptr,
+                           stream.tmax != nullptr ? floats[8] : nullptr,
+                           nullptr};
     for (std::uint32_t i = 0; i < slack; ++i) integers[0][i] = no_source;
     for (std::uint32_t begin = 0; begin < stream.count; begin += chunk) {
         const std::uint32_t n = stream.count - begin < chunk ? stream.count - begin : chunk;

@@ -2,6 +2,7 @@
 // What a ray hit, recomputed once from t and slot when shading: a point on the surface, how far it may be off, the normal.
 
 #include "render/kernels/quadric.hpp"
+#include "render/kernels/slots.hpp"
 #include "render/kernels/triangle.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
@@ -36,7 +37,8 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
 
 /// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
 template <FloatBatch F>
-LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot, Mask<F> lanes) {
+LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
+                                        Mask<F> lanes) {
     using S = Scalar<F>;
     const Vec3<F> zero{F(0), F(0), F(0)};
     Vec3<F> a = zero, b = zero, c = zero, n = zero;
@@ -76,7 +78,7 @@ LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org
     Vec3<F> centre{F(0), F(0), F(0)};
     F radius(1);
     for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
-        const SphereRecord& sphere = scene.spheres[static_cast<std::uint32_t>(s) - scene.first_slot[1]];
+        const SphereRecord& sphere = sphere_at(scene, static_cast<std::uint32_t>(s));
         centre = select(same, splat<F>(sphere.centre), centre);
         radius = select(same, F(S(sphere.radius)), radius);
     });
@@ -96,14 +98,14 @@ LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t reco
         for (int step = 0; step < 2; ++step)
             position = position + multiply<F>(forward.world_from_object, p - point_to_object(affine, position));
     }
-    return {position,
-            normalize(multiply_transposed<F>(affine.object_from_world, n)),
-            multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) + abs(translation) * F(two_u<F>)};
+    return {position, normalize(multiply_transposed<F>(affine.object_from_world, n)),
+            multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) +
+                abs(translation) * F(two_u<F>)};
 }
 
 template <FloatBatch F>
 LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
-    const std::uint32_t record = static_cast<std::uint32_t>(slot) - scene.first_slot[2];
+    const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
     const AffineRecord& affine = scene.affines[record];
     const Vec3<F> p = normalize(point_to_object(affine, org) + direction_to_object(affine, dir) * t);
     return affine_point(scene, record, p, p);
@@ -112,7 +114,7 @@ LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& 
 template <FloatBatch F>
 LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     using S = Scalar<F>;
-    const std::uint32_t record = static_cast<std::uint32_t>(slot) - scene.first_slot[2];
+    const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
     const AffineRecord& affine = scene.affines[record];
     const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
     const CylinderCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
@@ -130,7 +132,7 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
 template <FloatBatch F>
 LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     using S = Scalar<F>;
-    const PlaneRecord& plane = scene.planes[static_cast<std::uint32_t>(slot) - scene.first_slot[4]];
+    const PlaneRecord& plane = plane_at(scene, static_cast<std::uint32_t>(slot));
     const Vec3<F> n = splat<F>(plane.normal);
     const Vec3<F> along = org + dir * t;
     const Vec3<F> p = along - n * (dot(n, along) - F(S(plane.distance)));
@@ -143,10 +145,7 @@ LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org,
 template <FloatBatch F>
 Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot, Mask<F> found) {
     const auto kind_lanes = [&](PrimitiveKind kind) {
-        const auto k = static_cast<std::uint32_t>(kind);
-        const Int<F> first(static_cast<std::int32_t>(scene.first_slot[k]));
-        const Int<F> end(static_cast<std::int32_t>(scene.first_slot[k + 1]));
-        return found & (slot > first - Int<F>(1)) & (end > slot);
+        return found & slot_between<F>(slot, first_slot(scene, kind), end_slot(scene, kind));
     };
     const Vec3<F> zero{F(0), F(0), F(0)};
     detail::Point<F> point{zero, {F(1), F(0), F(0)}, zero};
@@ -163,9 +162,8 @@ Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>&
             merge(point, same, detail::cylinder_point(scene, org, dir, t, s));
         });
     if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
-        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
-            merge(point, same, detail::plane_point(scene, org, dir, t, s));
-        });
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::plane_point(scene, org, dir, t, s)); });
     const Mask<F> inside = found & (dot(dir, point.normal) > F(0));
     // the offset is added to a rounded position: 2 u |p| keeps it outside whatever that rounds to
     const F offset = dot(abs(point.normal), point.error + abs(point.position) * F(detail::two_u<F>));

@@ -24,9 +24,7 @@ LANECAST_INLINE Vec3<F> multiply_transposed(const float (&m)[9], const Vec3<F>& 
 template <FloatBatch F>
 LANECAST_INLINE Vec3<F> multiply_absolute(const float (&m)[9], const Vec3<F>& v) {
     using S = Scalar<F>;
-    const auto row = [&](int i) {
-        return abs(F(S(m[i]))) * v.x + abs(F(S(m[i + 1]))) * v.y + abs(F(S(m[i + 2]))) * v.z;
-    };
+    const auto row = [&](int i) { return abs(F(S(m[i]))) * v.x + abs(F(S(m[i + 1]))) * v.y + abs(F(S(m[i + 2]))) * v.z; };
     return {row(0), row(3), row(6)};
 }
 

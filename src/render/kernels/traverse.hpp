@@ -102,7 +102,8 @@ bool traverse_alone(const SceneView& scene, Packet<F>& packet, const StackEntry<
         const std::uint32_t i = entry.rays.rays[k];
         if (entry.near > packet.t[i]) continue;
         SingleRay<F> ray(packet, i);
-        if (!traverse_single<query>(scene, ray, packet.axes, packet.negative, entry.child) && ray.slot == packet.slot[i]) continue;
+        if (!traverse_single<query>(scene, ray, packet.axes, packet.negative, entry.child) && ray.slot == packet.slot[i])
+            continue;
         changed = true;
         packet.t[i] = ray.t;
         packet.slot[i] = ray.slot;
@@ -124,9 +125,8 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
         const bool leaf = (entry.child & child_is_leaf) != 0;
         if (leaf || entry.rays.count > 0) {
             last = entry.rays.vectors;
-            const bool changed = entry.rays.count > 0
-                                     ? traverse_alone<query>(scene, packet, entry)
-                                     : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
+            const bool changed = entry.rays.count > 0 ? traverse_alone<query>(scene, packet, entry)
+                                                      : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
             if (changed) {
                 update_t_max(packet);
                 if (query == Query::any && packet.t_max < Scalar<F>(0)) break;
@@ -153,7 +153,7 @@ void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force
     occupancy.first_active += packet.count;
     hit_planes<query>(scene, packet);
     std::uint32_t last = (1u << packet.vectors) - 1u;
-    if (scene.first_slot[5] != scene.first_slot[4]) update_t_max(packet);
+    if ((scene.features & feature_planes) != 0) update_t_max(packet);
     if (scene.leaf_count != 0 && brute_force) {
         for (std::uint32_t leaf = 0; leaf < scene.leaf_count; ++leaf) hit_leaf<query>(scene, packet, last, scene.leaves[leaf]);
     } else if (scene.leaf_count != 0 && packet.t_max >= Scalar<F>(0)) {

@@ -78,10 +78,10 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
     const Vec3<S> org{ray.org[0], ray.org[1], ray.org[2]}, dir{ray.dir[0], ray.dir[1], ray.dir[2]};
     Crossing<S> ends;
     if (kind == PrimitiveKind::sphere) {
-        const SphereRecord& sphere = scene.spheres[slot - scene.first_slot[1]];
+        const SphereRecord& sphere = sphere_at(scene, slot);
         ends = cross_sphere<S>(org - splat<S>(sphere.centre), dir, S(sphere.radius), true);
     } else {
-        const AffineRecord& affine = scene.affines[slot - scene.first_slot[2]];
+        const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
         const Vec3<S> o = point_to_object<S>(affine, org), d = direction_to_object<S>(affine, dir);
         ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
     }

@@ -35,7 +35,8 @@ struct RayQueue {
     }
 };
 
-/// The children of a batch. Those of vector v are consecutive in their queue, from first[v], one per bit of lanes[v] that was traced.
+/// The children of a batch. Those of vector v are consecutive in their queue, from first[v], one per bit of lanes[v] that was
+/// traced.
 template <FloatBatch F>
 struct Children {
     RayQueue<F> queue;
@@ -95,8 +96,8 @@ struct LightBatch {
     S* wi[3];
     S* to_light[3];
     S* scale;
-    S* visible[3]; ///< sum over samples of what reaches the surface, 0 to 1 per channel
-    std::uint32_t* lit; ///< lanes that face the light and lie in its cone
+    S* visible[3];        ///< sum over samples of what reaches the surface, 0 to 1 per channel
+    std::uint32_t* lit;   ///< lanes that face the light and lie in its cone
     std::uint32_t* asked; ///< lanes with a shadow ray, of the sample in hand
     RayBatch<F> shadow;
     // shadow rays on their way through transmissive objects

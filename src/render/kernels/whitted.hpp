@@ -108,8 +108,6 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
     const SceneView& scene = job.scene;
     const SurfaceBatch<F>& surface = w.surface;
     const bool reflects = (scene.features & feature_reflective) != 0, transmits = (scene.features & feature_transmissive) != 0;
-    const Int<F> first_quadric(static_cast<std::int32_t>(scene.first_slot[1]));
-    const Int<F> first_plane(static_cast<std::int32_t>(scene.first_slot[4]));
     frame.reflected.queue.count = 0;
     frame.transmitted.queue.count = 0;
     for (std::uint32_t v = 0; v * width<F> < queue.count; ++v) {
@@ -133,14 +131,13 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
         const Vec3<F> away = n * load<F>(surface.offset + i);
         const Int<F> slot = load_int<F>(queue.rays.slot + i);
         const Mask<F> inside = mask_from_bits<F>(surface.inside[v]);
-        const Mask<F> quadric = (slot > first_quadric - Int<F>(1)) & (first_plane > slot);
+        const Mask<F> quadric = is_quadric<F>(scene, slot);
         const Int<F> outward = source_outward(slot), inward = select(quadric, source_inward(slot), outward);
         const Int<F> back = select(inside, inward, outward), onward = select(inside, outward, inward);
         const Spawn<F> spawn{job, queue, v};
         Transmission<F> through{d, Mask<F>(false), F(1)};
         if (transmits || job.schlick != 0) through = transmit(d, n, index, inside);
-        if (job.log != nullptr)
-            log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
+        if (job.log != nullptr) log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
         if (reflects) {
             const Vec3<F> factor = job.schlick != 0 ? reflective * through.fresnel : reflective;
             const Vec3<F> opaque{F(1) - transmissive.x, F(1) - transmissive.y, F(1) - transmissive.z};
