@@ -55,6 +55,21 @@ Material random_material(Random& random) {
     return m;
 }
 
+Shape random_shape(Random& random, int kind, const glm::dvec3& place) {
+    switch (kind) {
+    case 0:
+        return Sphere{random.uniform(0.2, 0.8), place};
+    case 1:
+        return Sphere{random.uniform(0.2, 0.8), random.point(0.3)};
+    case 2:
+        return Cylinder{random.uniform(0.1, 0.6), random.uniform(0.1, 1.5)};
+    case 3:
+        return tetrahedron();
+    default:
+        return Plane{random.direction() * random.uniform(3, 6), random.direction() * random.uniform(0.2, 4)};
+    }
+}
+
 } // namespace
 
 SceneDescription everything() {
@@ -93,32 +108,12 @@ SceneDescription everything() {
 SceneDescription random_lit_scene(Random& random, int size) {
     SceneDescription scene;
     for (int i = 0; i < size; ++i) {
-        Object object;
-        object.material = random_material(random);
         const glm::dvec3 place = random.point(2);
-        switch (random.below(5)) {
-        case 0:
-            object.shape = Sphere{random.uniform(0.2, 0.8), place};
-            break;
-        case 1:
-            object.shape = Sphere{random.uniform(0.2, 0.8), random.point(0.3)};
-            object.transformations = random_transformations(random, false);
-            object.transformations.emplace_back(Translation{place * 0.5});
-            break;
-        case 2:
-            object.shape = Cylinder{random.uniform(0.1, 0.6), random.uniform(0.1, 1.5)};
-            object.transformations = random_transformations(random, random.chance(0.5));
-            object.transformations.emplace_back(Translation{place * 0.5});
-            break;
-        case 3:
-            object.shape = tetrahedron();
-            object.transformations = random_transformations(random, false);
-            object.transformations.emplace_back(Scale{glm::dvec3(0.5, 0.5, random.chance(0.5) ? -0.5 : 0.5)});
-            object.transformations.emplace_back(Translation{place});
-            break;
-        default:
-            object.shape = Plane{random.direction() * random.uniform(3, 6), random.direction() * random.uniform(0.2, 4)};
-        }
+        const int kind = random.below(5);
+        Object object{random_shape(random, kind, place), {}, random_material(random), ""};
+        if (kind >= 1 && kind <= 3) object.transformations = random_transformations(random, kind == 2 && random.chance(0.5));
+        if (kind == 3) object.transformations.emplace_back(Scale{glm::dvec3(0.5, 0.5, random.chance(0.5) ? -0.5 : 0.5)});
+        if (kind >= 1 && kind <= 3) object.transformations.emplace_back(Translation{kind == 3 ? place : place * 0.5});
         if (random.chance(0.15))
             scene.objects.push_back({Sphere{random.uniform(0.05, 0.2), place}, {}, random_material(random), ""});
         scene.objects.push_back(object);

@@ -166,11 +166,7 @@ TEST_CASE("the tree finds what testing every primitive finds: stretched and shea
     for (int n = 0; n < cases(200); ++n) {
         SceneDescription scene;
         for (int i = 0; i < 12; ++i) {
-            Object object;
-            if (random.chance(0.5))
-                object.shape = Sphere{};
-            else
-                object.shape = Cylinder{};
+            Object object{random.chance(0.5) ? Shape(Sphere{}) : Shape(Cylinder{}), {}, {}, ""};
             // condition numbers up to about 1e3 by stretching, and the shear that two stretches make
             const auto stretch = [&] { return std::exp(random.uniform(-3.4, 3.4)); };
             object.transformations = {Scale{{stretch(), stretch(), stretch()}}, Rotation{random.direction(), 50}};
