@@ -4,8 +4,8 @@
 #include "scene/bvh_refs.hpp"
 #include "scene/flatten_objects.hpp"
 #include "scene/scene_arrays.hpp"
-
 #include "scene/scratch.hpp"
+
 #include <array>
 #include <cstdint>
 
