@@ -2,25 +2,18 @@
 
 #include "render/camera.hpp"
 #include "render/tiles.hpp"
+#include "scene/aligned_bytes.hpp"
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <memory>
 #include <mutex>
-#include <new>
 #include <thread>
 
 namespace lanecast {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Scratch = std::unique_ptr<unsigned char[], AlignedDelete>;
-
-Scratch make_scratch(std::uint64_t bytes) {
-    // Untouched pages cost nothing: deep levels that are never reached take address space only.
-    return Scratch(static_cast<unsigned char*>(::operator new[](bytes, std::align_val_t{64})));
-}
 
 void add(TileStats& sum, const TileStats& tile) {
     for (int kind = 0; kind < ray_kind_count; ++kind) {
@@ -97,8 +90,8 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
     const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
     const std::uint64_t scratch_bytes = kernels.scratch_bytes(job);
-    std::vector<Scratch> scratch;
-    for (int i = 0; i < threads; ++i) scratch.push_back(make_scratch(scratch_bytes));
+    std::vector<AlignedBytes> scratch; // untouched pages cost nothing: levels that are never reached take address space only
+    for (int i = 0; i < threads; ++i) scratch.push_back(make_aligned_bytes(scratch_bytes));
 
     std::atomic<std::size_t> next{0}, done{0};
     std::atomic<std::uint64_t> rays{0};

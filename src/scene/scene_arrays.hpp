@@ -1,13 +1,12 @@
 #pragma once
 // The owner of the flattened scene, and its view.
 
+#include "scene/aligned_bytes.hpp"
 #include "scene/description.hpp"
 #include "scene/scene_view.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -25,12 +24,6 @@ struct BvhQuality {
     double overlapping_share = 0;         ///< of nodes in which two children share more than half of the smaller one's box
 };
 
-/// Frees what operator new with this alignment gave.
-struct AlignedDelete {
-    std::size_t alignment = 64;
-    void operator()(unsigned char* p) const noexcept { ::operator delete[](p, std::align_val_t{alignment}); }
-};
-
 /// p_normalised = (p_world - centre) * scale; scale is a power of two.
 struct Normalisation {
     glm::dvec3 centre{0};
@@ -39,7 +32,7 @@ struct Normalisation {
 };
 
 struct SceneArrays {
-    std::unique_ptr<unsigned char[], AlignedDelete> arena;
+    AlignedBytes arena;
     std::size_t arena_bytes = 0;
     std::vector<std::uint64_t> leaves;
     std::vector<TriangleRecord> triangles;
