@@ -30,12 +30,6 @@ void add(TileStats& sum, const TileStats& tile) {
     sum.total_ticks += tile.total_ticks;
 }
 
-std::uint64_t rays_of(const TileStats& stats) {
-    std::uint64_t rays = 0;
-    for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
-    return rays;
-}
-
 // Edge traces the border of a tile too.
 PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
     return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
@@ -52,6 +46,12 @@ AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
 }
 
 } // namespace
+
+std::uint64_t ray_count(const TileStats& stats) noexcept {
+    std::uint64_t rays = 0;
+    for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
+    return rays;
+}
 
 RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, const FrameOptions& options) {
     RenderJob job{};
@@ -106,7 +106,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
             const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
             add(sum, tile);
             done.fetch_add(1, std::memory_order_relaxed);
-            rays.fetch_add(rays_of(tile), std::memory_order_relaxed);
+            rays.fetch_add(ray_count(tile), std::memory_order_relaxed);
         }
         const std::lock_guard lock(mutex);
         add(frame.stats.tiles, sum);
