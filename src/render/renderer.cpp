@@ -37,10 +37,14 @@ PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& optio
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
     switch (mode) {
-    case AntiAliasMode::cross: return AntiAliasKind::cross;
-    case AntiAliasMode::grid: return AntiAliasKind::grid;
-    case AntiAliasMode::edge: return AntiAliasKind::edge;
-    case AntiAliasMode::off: break;
+    case AntiAliasMode::cross:
+        return AntiAliasKind::cross;
+    case AntiAliasMode::grid:
+        return AntiAliasKind::grid;
+    case AntiAliasMode::edge:
+        return AntiAliasKind::edge;
+    case AntiAliasMode::off:
+        break;
     }
     return AntiAliasKind::off;
 }

@@ -18,10 +18,10 @@ namespace lanecast {
 struct BvhQuality {
     std::uint32_t nodes = 0;
     std::uint32_t leaves = 0;
-    int depth = 0;                        ///< levels of nodes; 0 without a tree
-    double sah_cost = 0;                  ///< expected node visits + primitive tests of a random ray that enters the root
+    int depth = 0;       ///< levels of nodes; 0 without a tree
+    double sah_cost = 0; ///< expected node visits + primitive tests of a random ray that enters the root
     std::uint32_t leaf_sizes[max_leaf_size + 1] = {}; ///< leaves by number of primitives
-    double overlapping_share = 0;         ///< of nodes in which two children share more than half of the smaller one's box
+    double overlapping_share = 0; ///< of nodes in which two children share more than half of the smaller one's box
 };
 
 /// p_normalised = (p_world - centre) * scale; scale is a power of two.
