@@ -73,10 +73,11 @@ int run_diff(const DiffOptions& options, std::ostream& out) {
     if (picture_kind(options.a) != picture_kind(options.b))
         out << "note                an EXR holds linear values, a PNG those of its view: comparable only for the view `plain`\n";
     print_measures(comparison, options.threshold, out);
-    if (!options.output.empty()) write_difference(options.output, a, b, options.scale);
+    if (!options.output.empty() && comparison.pixels > 0) write_difference(options.output, a, b, options.scale);
 
     const bool pass = accepted(options, comparison);
-    const char* result = !comparison.same_window ? "the windows differ; measured over the pixels both hold"
+    const char* result = comparison.pixels == 0    ? "the windows have no pixel in common"
+                         : !comparison.same_window ? "the windows differ; measured over the pixels both hold"
                          : comparison.identical && comparison.largest == 0 ? "identical"
                          : pass                                            ? "within the limits"
                          : comparison.largest == 0                         ? "equal but for the signs of zeros"

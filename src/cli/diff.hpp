@@ -10,10 +10,10 @@
 namespace lanecast {
 
 struct DiffOptions {
-    std::filesystem::path a, b;                               ///< EXR or PNG, told by their content
-    std::filesystem::path output;                             ///< difference picture, .exr or .png; empty: none
-    std::optional<float> scale;                               ///< of the difference picture; default 1 for EXR, 16 for PNG
-    double threshold = default_off_threshold;                 ///< a pixel is off when a channel differs by more
+    std::filesystem::path a, b;               ///< EXR or PNG, told by their content
+    std::filesystem::path output;             ///< difference picture of the pixels both hold, .exr or .png; empty: none
+    std::optional<float> scale;               ///< of the difference picture; default 1 for EXR, 16 for PNG
+    double threshold = default_off_threshold; ///< a pixel is off when a channel differs by more
     std::optional<double> max_rmse, max_error, max_off_share; ///< none given: any difference in the decoded pixels is one
 };
 

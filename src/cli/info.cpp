@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/info_report.hpp"
 #include "cli/print.hpp"
-#include "cli/scene_counts.hpp"
 #include "scene/error.hpp"
 
 #include <cmath>

@@ -79,16 +79,14 @@ std::string info_text(const RequestedScene& scene, const SceneArrays& arrays) {
     const std::size_t slots = arrays.first_slot[primitive_kind_count];
     std::string text;
     line(text, "scene", printable(description.file, 4096));
-    static constexpr const char* objects[] = {"sphere", "cylinder", "plane", "mesh"};
-    static constexpr const char* lights[] = {"ambient", "directional", "point", "spot"};
-    line(text, "objects", breakdown(counts.objects, [](std::size_t i, std::size_t n) { return counted(n, objects[i]); }));
+    line(text, "objects", breakdown(counts.objects, [](std::size_t i, std::size_t n) { return counted(n, shape_names[i]); }));
     line(text, "primitives", breakdown(primitives, [](std::size_t i, std::size_t n) { return counted(n, primitive_names[i]); }));
     if (arrays.degenerate_triangles > 0)
         line(text, "triangles",
              std::to_string(counts.triangles) +
                  " in the file; degenerate and dropped: " + std::to_string(arrays.degenerate_triangles));
     line(text, "lights",
-         breakdown(counts.lights, [](std::size_t i, std::size_t n) { return std::to_string(n) + " " + lights[i]; }));
+         breakdown(counts.lights, [](std::size_t i, std::size_t n) { return std::to_string(n) + " " + light_names[i]; }));
     line(text, "image",
          std::to_string(description.camera.resolution[0]) + "x" + std::to_string(description.camera.resolution[1]));
     line(text, "bounds",

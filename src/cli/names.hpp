@@ -2,21 +2,20 @@
 // Words for what a scene holds.
 
 #include "scene/description.hpp"
+#include "scene/scene_view.hpp"
 
-#include <string>
+#include <iterator>
 
 namespace lanecast {
 
-/// "sphere", "cylinder", "plane", "mesh".
-[[nodiscard]] inline const char* type_name(const Shape& shape) {
-    static constexpr const char* names[] = {"sphere", "cylinder", "plane", "mesh"};
-    return names[shape.index()];
-}
+inline constexpr const char* shape_names[] = {"sphere", "cylinder", "plane", "mesh"};
+inline constexpr const char* light_names[] = {"ambient", "directional", "point", "spot"};
+inline constexpr const char* primitive_names[] = {"triangle", "sphere", "ellipsoid", "cylinder", "plane"};
+static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
+static_assert(std::size(light_names) == std::variant_size_v<Light>);
+static_assert(std::size(primitive_names) == primitive_kind_count);
 
-/// "ambient", "directional", "point", "spot".
-[[nodiscard]] inline const char* type_name(const Light& light) {
-    static constexpr const char* names[] = {"ambient", "directional", "point", "spot"};
-    return names[light.index()];
-}
+[[nodiscard]] inline const char* type_name(const Shape& shape) { return shape_names[shape.index()]; }
+[[nodiscard]] inline const char* type_name(const Light& light) { return light_names[light.index()]; }
 
 } // namespace lanecast

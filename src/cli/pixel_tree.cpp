@@ -1,6 +1,7 @@
 #include "cli/pixel_tree.hpp"
 
-#include <algorithm>
+#include "scene/flatten_objects.hpp"
+
 #include <cmath>
 
 namespace lanecast {
@@ -23,25 +24,12 @@ Triple unit(const float (&v)[3]) {
     return {static_cast<double>(v[0]) / l, static_cast<double>(v[1]) / l, static_cast<double>(v[2]) / l};
 }
 
-/// Scene ids count objects in file order and the triangles of a mesh one by one.
-std::vector<std::uint32_t> first_scene_ids(const SceneDescription& scene) {
-    std::vector<std::uint32_t> first;
-    std::uint32_t next = 0;
-    for (const Object& object : scene.objects) {
-        first.push_back(next);
-        const Mesh* const mesh = std::get_if<Mesh>(&object.shape);
-        next += mesh != nullptr ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
-    }
-    return first;
-}
-
-void set_surface(RayNode& node, const TraceRecord& record, const SceneView& view, const SceneDescription& scene,
-                 const std::vector<std::uint32_t>& first_ids, const Normalisation& n) {
+void set_surface(RayNode& node, const TraceRecord& record, const SceneView& view, const FlatObjects& objects,
+                 const Normalisation& n) {
     const auto slot = static_cast<std::uint32_t>(record.slot);
-    const std::uint32_t object = view.object[slot];
-    node.object = static_cast<int>(object);
-    if (std::holds_alternative<Mesh>(scene.objects[object].shape))
-        node.triangle = static_cast<long>(view.scene_id[slot] - first_ids[object]);
+    const FlatObject& object = objects.objects[view.object[slot]];
+    node.object = static_cast<int>(object.index);
+    if (object.kind == PrimitiveKind::triangle) node.triangle = static_cast<long>(view.scene_id[slot] - object.first_scene_id);
     node.distance = static_cast<double>(record.t) * length(record.dir) / n.scale;
     node.point = world(n, record.point);
     for (std::size_t i = 0; i < 3; ++i) node.normal[i] = static_cast<double>(record.normal[i]);
@@ -57,7 +45,7 @@ void set_surface(RayNode& node, const TraceRecord& record, const SceneView& view
 
 PixelTree pixel_tree(const PixelTrace& trace, const SceneArrays& arrays, const SceneDescription& scene) {
     const SceneView scene_view = view(arrays);
-    const std::vector<std::uint32_t> first_ids = first_scene_ids(scene);
+    const FlatObjects objects = prepare_objects(scene);
     PixelTree tree;
     tree.color = trace.color;
     for (const TraceRecord& record : trace.rays) {
@@ -67,7 +55,7 @@ PixelTree pixel_tree(const PixelTrace& trace, const SceneArrays& arrays, const S
         node.org = world(arrays.normalisation, record.org);
         node.dir = unit(record.dir);
         node.color = triple(record.color);
-        if (record.slot >= 0) set_surface(node, record, scene_view, scene, first_ids, arrays.normalisation);
+        if (record.slot >= 0) set_surface(node, record, scene_view, objects, arrays.normalisation);
         if (record.parent >= 0) tree.rays[static_cast<std::size_t>(record.parent)].children.push_back(tree.rays.size());
         tree.rays.push_back(std::move(node));
     }

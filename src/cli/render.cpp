@@ -129,8 +129,8 @@ void print_summary(const PictureNames& names, const RenderReport& report, const 
     std::string files = names.exr.string();
     if (!names.png.empty()) files += (files.empty() ? "" : " and ") + names.png.string();
     print_message("wrote " + files + " (" + std::to_string(film.width) + "x" + std::to_string(film.height) + ", " +
-                  short_count(static_cast<double>(ray_count(report.stats))) + " rays in " + short_seconds(report.stats.seconds) +
-                  ")");
+                  short_count(static_cast<double>(ray_count(report.stats.tiles))) + " rays in " +
+                  short_seconds(report.stats.seconds) + ")");
 }
 
 int render(const RenderRequest& request) {

@@ -4,7 +4,6 @@
 #include "render/exr_io.hpp"
 #include "render/renderer.hpp"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,5 @@ struct RenderReport {
 
 /// `volatile_metadata`: also what differs between two runs that give the same pixels.
 [[nodiscard]] std::vector<ExrAttribute> exr_attributes(const RenderReport& report, bool volatile_metadata);
-
-[[nodiscard]] std::uint64_t ray_count(const FrameStats& stats);
 
 } // namespace lanecast

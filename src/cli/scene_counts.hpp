@@ -32,12 +32,4 @@ struct SceneCounts {
     return counts;
 }
 
-inline constexpr const char* primitive_names[primitive_kind_count] = {"triangle", "sphere", "ellipsoid", "cylinder", "plane"};
-
-/// Spacing of floats at the largest coordinate, in scene units.
-[[nodiscard]] double grid_spacing(const SceneArrays& arrays);
-
-/// Whether anything is bounded.
-[[nodiscard]] inline bool has_bounds(const SceneArrays& arrays) { return arrays.bounds_min.x <= arrays.bounds_max.x; }
-
 } // namespace lanecast

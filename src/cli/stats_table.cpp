@@ -72,12 +72,6 @@ double peak_bytes() {
 
 } // namespace
 
-std::uint64_t ray_count(const FrameStats& stats) {
-    std::uint64_t rays = 0;
-    for (const RayKindStats& kind : stats.tiles.kinds) rays += kind.rays;
-    return rays;
-}
-
 std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     const FrameStats& stats = report.stats;
     std::string table;

@@ -4,6 +4,7 @@
 #include "scene/error.hpp"
 #include "scene/text_tools.hpp"
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>

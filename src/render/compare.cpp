@@ -10,8 +10,8 @@ namespace lanecast {
 namespace {
 
 /// Differences of 8-bit codes k/255, held as floats near 1, are off by some units of 2^-24: one code must not count as more than
-/// one.
-constexpr double rounding_of_codes = 1e-6;
+/// one. Never more than a small part of the threshold: at 0, any difference is off.
+[[nodiscard]] double with_rounding_of_codes(double threshold) noexcept { return threshold + std::min(1e-6, threshold / 64); }
 
 [[nodiscard]] double difference(float a, float b) noexcept {
     if (a == b) return 0;
@@ -45,6 +45,7 @@ Comparison compare(const Film& a, const Film& b, double off_threshold) noexcept 
     for (std::size_t c = 0; c < 3; ++c) result.identical = result.identical && same_bits(a.rgb[c], b.rgb[c]);
 
     const Tile common = common_window(a, b);
+    const double limit = with_rounding_of_codes(off_threshold);
     double sum = 0;
     for (int y = common.y0; y < common.y1; ++y)
         for (int x = common.x0; x < common.x1; ++x) {
@@ -62,7 +63,7 @@ Comparison compare(const Film& a, const Film& b, double off_threshold) noexcept 
                 }
             }
             ++result.pixels;
-            result.off_pixels += worst > off_threshold + rounding_of_codes ? 1 : 0;
+            result.off_pixels += worst > limit ? 1 : 0;
         }
     if (result.pixels > 0) result.rmse = std::sqrt(sum / (3.0 * static_cast<double>(result.pixels)));
     return result;

@@ -1,11 +1,10 @@
 #include "render/pick.hpp"
 
 #include "render/tiles.hpp"
+#include "scene/aligned_bytes.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <new>
 #include <string>
 
 namespace lanecast {
@@ -37,8 +36,7 @@ PixelTrace trace_pixel(const KernelTable& kernels, const SceneArrays& scene, con
     TraceLog log{
         .rays = nullptr, .lights = nullptr, .ray_capacity = 256, .light_capacity = 1024, .ray_count = 0, .light_count = 0};
     job.log = &log;
-    const std::unique_ptr<unsigned char[], AlignedDelete> scratch(
-        static_cast<unsigned char*>(::operator new[](kernels.scratch_bytes(job), std::align_val_t{64})));
+    const AlignedBytes scratch = make_aligned_bytes(kernels.scratch_bytes(job));
     for (;;) {
         trace.rays.assign(static_cast<std::size_t>(log.ray_capacity), TraceRecord{});
         trace.lights.assign(static_cast<std::size_t>(log.light_capacity), TraceLight{});

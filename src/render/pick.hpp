@@ -15,7 +15,7 @@ struct PixelTrace {
 };
 
 /// The pixel (x, y) of the image, by its centre ray: settings.anti_aliasing is taken as off, options.crop does not count.
-/// Throws Error (memory) for a tree of more than 2^22 rays.
+/// Throws Error (memory) for a tree of more than 2^22 rays, or of lights over all its rays.
 [[nodiscard]] PixelTrace trace_pixel(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,
                                      const RenderSettings& settings, const FrameOptions& options, int x, int y);
 

@@ -1,11 +1,11 @@
 #include "render/png_io.hpp"
 
+#include "render/png_errors.hpp"
 #include "scene/error.hpp"
 
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -18,25 +18,13 @@ namespace {
 // deflate cannot shrink further than 1:1032; a header that claims more is refused before memory is taken for it.
 constexpr std::uint64_t max_ratio = 1032;
 
-struct Reason {
-    char text[128] = "unknown reason";
-};
-
-void keep_reason(png_structp png, png_const_charp message) {
-    Reason& reason = *static_cast<Reason*>(png_get_error_ptr(png));
-    std::strncpy(reason.text, message, sizeof reason.text - 1); // the message may lie on the stack that longjmp drops
-    png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp, png_const_charp) {}
-
 struct PngReader {
     png_structp png = nullptr;
     png_infop info = nullptr;
-    Reason reason;
+    PngReason reason;
 
     PngReader() {
-        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reason, keep_reason, ignore_warning);
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reason, keep_png_reason, ignore_png_warning);
         if (png) info = png_create_info_struct(png);
     }
     ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }

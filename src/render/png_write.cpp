@@ -1,9 +1,9 @@
 #include "render/png_io.hpp"
 
 #include "render/output_file.hpp"
+#include "render/png_errors.hpp"
 
 #include <csetjmp>
-#include <cstring>
 #include <string>
 
 #include <png.h>
@@ -36,23 +36,11 @@ void flush_nothing(png_structp) {}
     return true;
 }
 
-struct Reason {
-    char text[128] = "unknown reason";
-};
-
-void keep_reason(png_structp png, png_const_charp message) {
-    Reason& reason = *static_cast<Reason*>(png_get_error_ptr(png));
-    std::strncpy(reason.text, message, sizeof reason.text - 1); // the message may lie on the stack that longjmp drops
-    png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp, png_const_charp) {}
-
 } // namespace
 
 void write_png(OutputFile& file, const Picture8& picture) {
-    Reason reason;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &reason, keep_reason, ignore_warning);
+    PngReason reason;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &reason, keep_png_reason, ignore_png_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const bool encoded = info && encode(png, info, file, picture);
     png_destroy_write_struct(&png, &info);

@@ -2,25 +2,18 @@
 
 #include "render/camera.hpp"
 #include "render/tiles.hpp"
+#include "scene/aligned_bytes.hpp"
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <memory>
 #include <mutex>
-#include <new>
 #include <thread>
 
 namespace lanecast {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Scratch = std::unique_ptr<unsigned char[], AlignedDelete>;
-
-Scratch make_scratch(std::uint64_t bytes) {
-    // Untouched pages cost nothing: deep levels that are never reached take address space only.
-    return Scratch(static_cast<unsigned char*>(::operator new[](bytes, std::align_val_t{64})));
-}
 
 void add(TileStats& sum, const TileStats& tile) {
     for (int kind = 0; kind < ray_kind_count; ++kind) {
@@ -37,12 +30,6 @@ void add(TileStats& sum, const TileStats& tile) {
     sum.total_ticks += tile.total_ticks;
 }
 
-std::uint64_t rays_of(const TileStats& stats) {
-    std::uint64_t rays = 0;
-    for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
-    return rays;
-}
-
 // Edge traces the border of a tile too.
 PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
     return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
@@ -50,15 +37,25 @@ PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& optio
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
     switch (mode) {
-    case AntiAliasMode::cross: return AntiAliasKind::cross;
-    case AntiAliasMode::grid: return AntiAliasKind::grid;
-    case AntiAliasMode::edge: return AntiAliasKind::edge;
-    case AntiAliasMode::off: break;
+    case AntiAliasMode::cross:
+        return AntiAliasKind::cross;
+    case AntiAliasMode::grid:
+        return AntiAliasKind::grid;
+    case AntiAliasMode::edge:
+        return AntiAliasKind::edge;
+    case AntiAliasMode::off:
+        break;
     }
     return AntiAliasKind::off;
 }
 
 } // namespace
+
+std::uint64_t ray_count(const TileStats& stats) noexcept {
+    std::uint64_t rays = 0;
+    for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
+    return rays;
+}
 
 RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, const FrameOptions& options) {
     RenderJob job{};
@@ -97,8 +94,8 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
     const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
     const std::uint64_t scratch_bytes = kernels.scratch_bytes(job);
-    std::vector<Scratch> scratch;
-    for (int i = 0; i < threads; ++i) scratch.push_back(make_scratch(scratch_bytes));
+    std::vector<AlignedBytes> scratch; // untouched pages cost nothing: levels that are never reached take address space only
+    for (int i = 0; i < threads; ++i) scratch.push_back(make_aligned_bytes(scratch_bytes));
 
     std::atomic<std::size_t> next{0}, done{0};
     std::atomic<std::uint64_t> rays{0};
@@ -113,7 +110,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
             const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
             add(sum, tile);
             done.fetch_add(1, std::memory_order_relaxed);
-            rays.fetch_add(rays_of(tile), std::memory_order_relaxed);
+            rays.fetch_add(ray_count(tile), std::memory_order_relaxed);
         }
         const std::lock_guard lock(mutex);
         add(frame.stats.tiles, sum);

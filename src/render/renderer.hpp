@@ -19,6 +19,9 @@ struct FrameOptions {
     const std::atomic<bool>* stop = nullptr; ///< once true no more tiles are begun; may be null
 };
 
+/// Of all kinds.
+[[nodiscard]] std::uint64_t ray_count(const TileStats& stats) noexcept;
+
 struct FrameStats {
     TileStats tiles{}; ///< summed over tiles and threads
     int threads = 0;

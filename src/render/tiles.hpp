@@ -15,11 +15,13 @@ namespace lanecast {
     for (int y = crop.y0 / tile_size * tile_size; y < crop.y1; y += tile_size)
         for (int x = crop.x0 / tile_size * tile_size; x < crop.x1; x += tile_size)
             tiles.push_back({x > crop.x0 ? x : crop.x0, y > crop.y0 ? y : crop.y0,
-                             x + tile_size < crop.x1 ? x + tile_size : crop.x1, y + tile_size < crop.y1 ? y + tile_size : crop.y1});
+                             x + tile_size < crop.x1 ? x + tile_size : crop.x1,
+                             y + tile_size < crop.y1 ? y + tile_size : crop.y1});
     return tiles;
 }
 
-/// x and y of the pixels of a square, in Morton order: neighbours in the list are neighbours in the image, so packets are compact.
+/// x and y of the pixels of a square, in Morton order: neighbours in the list are neighbours in the image, so packets are
+/// compact.
 struct PixelOrder {
     std::uint32_t count = 0; ///< the arrays are longer, because kernels read whole vectors
     std::vector<std::int32_t> x, y;

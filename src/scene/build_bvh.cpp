@@ -51,7 +51,7 @@ BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_
     const WideTree wide = collapse(binary, refs, first_slot);
     tree.arena_bytes = wide.arena_units * 64;
     if (tree.arena_bytes > largest_arena) throw Error(ExitCode::memory, "the tree would exceed 2 GiB");
-    tree.arena.reset(static_cast<unsigned char*>(::operator new[](tree.arena_bytes, std::align_val_t{64})));
+    tree.arena = make_aligned_bytes(tree.arena_bytes);
     tree.leaves.resize(wide.leaves);
     tree.leaf_first_ref.resize(wide.leaves);
 

@@ -1,18 +1,18 @@
 #pragma once
 // Boxes in, eight-wide tree in one arena out. The steps: bvh_binary, bvh_collapse, emission, bvh_quality.
 
+#include "scene/aligned_bytes.hpp"
 #include "scene/bvh_refs.hpp"
 #include "scene/scene_arrays.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace lanecast {
 
 struct BvhTree {
-    std::unique_ptr<unsigned char[], AlignedDelete> arena; ///< nodes are written, triangle blocks are left to the caller
+    AlignedBytes arena; ///< nodes are written, triangle blocks are left to the caller
     std::size_t arena_bytes = 0;
     std::vector<std::uint64_t> leaves;         ///< child words, in arena order
     std::vector<std::uint32_t> leaf_first_ref; ///< per leaf: its primitives are the `refs` from here on

@@ -2,8 +2,8 @@
 // The binary tree from which the eight-wide one is collapsed.
 
 #include "scene/bvh_refs.hpp"
-
 #include "scene/scratch.hpp"
+
 #include <cstddef>
 #include <cstdint>
 

@@ -6,8 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -98,7 +96,7 @@ struct Camera {
     glm::dvec3 position{0};
     glm::dvec3 look_at{0, 0, -1};
     glm::dvec3 up{0, 1, 0};
-    double near = 0; ///< clip distance along the view axis, of camera rays only
+    double near = 0;                         ///< clip distance along the view axis, of camera rays only
     std::array<int, 2> resolution{512, 512}; ///< width, height
 };
 

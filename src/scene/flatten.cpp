@@ -52,7 +52,9 @@ Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
     BuildRef* end = begin + objects.refs;
     if (arrays.degenerate_triangles > 0) {
         end = std::remove_if(begin, end, [](const BuildRef& ref) { return ref.source == dropped_source; });
-        arrays.warnings.push_back(std::to_string(arrays.degenerate_triangles) + " degenerate triangles were dropped");
+        arrays.warnings.push_back(std::to_string(arrays.degenerate_triangles) + (arrays.degenerate_triangles == 1
+                                                                                     ? " degenerate triangle was dropped"
+                                                                                     : " degenerate triangles were dropped"));
     }
     bounded.count = static_cast<std::size_t>(end - begin);
     arrays.warnings.insert(arrays.warnings.end(), bounded.quadrics.warnings.begin(), bounded.quadrics.warnings.end());

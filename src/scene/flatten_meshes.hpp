@@ -4,8 +4,8 @@
 #include "scene/bvh_refs.hpp"
 #include "scene/flatten_objects.hpp"
 #include "scene/scene_arrays.hpp"
-
 #include "scene/scratch.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -27,8 +27,8 @@ struct BakedVertices {
 [[nodiscard]] std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads);
 inline constexpr std::uint32_t dropped_source = 0xffffffffu;
 
-/// Writes the block of n triangles at `block`, 64-byte units * block_units(n) of it, and their records. Mirroring transforms flip
-/// the winding.
+/// Writes the block of n triangles at arena + 64 * block_offset, 64 * block_units(n) bytes, and their records. Mirroring
+/// transforms flip the winding.
 void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
                          std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records);
 

@@ -120,7 +120,8 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     quadrics.affines.push_back(record);
     quadrics.affine_shading.push_back(shading);
     const glm::dvec3 stored_centre{record.translation[0], record.translation[1], record.translation[2]};
-    return ref_of(flat, quadric_box(stored_centre, stored_extent, conditioning > 4 ? conditioning : 0), quadrics.affines.size() - 1);
+    return ref_of(flat, quadric_box(stored_centre, stored_extent, conditioning > 4 ? conditioning : 0),
+                  quadrics.affines.size() - 1);
 }
 
 PlaneRecord plane_record(const Plane& plane, const Normalisation& normalisation) {

@@ -1,24 +1,14 @@
 #include "scene/load_parts.hpp"
+#include "scene/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace lanecast {
 namespace {
-
-/// Rodrigues' formula; right-handed.
-glm::dmat3 matrix_of(const Rotation& rotation) {
-    const glm::dvec3 k = glm::normalize(rotation.axis);
-    const double radians = glm::radians(rotation.degrees);
-    const double c = std::cos(radians);
-    const double s = std::sin(radians);
-    const glm::dmat3 cross(0, k.z, -k.y, -k.z, 0, k.x, k.y, -k.x, 0);
-    return c * glm::dmat3(1) + s * cross + (1 - c) * glm::outerProduct(k, k);
-}
 
 bool all_within(const glm::dmat3& m) {
     for (int column = 0; column < 3; ++column)

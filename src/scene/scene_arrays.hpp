@@ -1,13 +1,12 @@
 #pragma once
 // The owner of the flattened scene, and its view.
 
+#include "scene/aligned_bytes.hpp"
 #include "scene/description.hpp"
 #include "scene/scene_view.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -19,16 +18,10 @@ namespace lanecast {
 struct BvhQuality {
     std::uint32_t nodes = 0;
     std::uint32_t leaves = 0;
-    int depth = 0;                        ///< levels of nodes; 0 without a tree
-    double sah_cost = 0;                  ///< expected node visits + primitive tests of a random ray that enters the root
+    int depth = 0;       ///< levels of nodes; 0 without a tree
+    double sah_cost = 0; ///< expected node visits + primitive tests of a random ray that enters the root
     std::uint32_t leaf_sizes[max_leaf_size + 1] = {}; ///< leaves by number of primitives
-    double overlapping_share = 0;         ///< of nodes in which two children share more than half of the smaller one's box
-};
-
-/// Frees what operator new with this alignment gave.
-struct AlignedDelete {
-    std::size_t alignment = 64;
-    void operator()(unsigned char* p) const noexcept { ::operator delete[](p, std::align_val_t{alignment}); }
+    double overlapping_share = 0; ///< of nodes in which two children share more than half of the smaller one's box
 };
 
 /// p_normalised = (p_world - centre) * scale; scale is a power of two.
@@ -39,7 +32,7 @@ struct Normalisation {
 };
 
 struct SceneArrays {
-    std::unique_ptr<unsigned char[], AlignedDelete> arena;
+    AlignedBytes arena;
     std::size_t arena_bytes = 0;
     std::vector<std::uint64_t> leaves;
     std::vector<TriangleRecord> triangles;

@@ -42,7 +42,7 @@ void warn(SceneReader& reader, NodeId node, const std::string& message);
 /// "-1", "\"abc\"", "a list of 4": to follow "got".
 [[nodiscard]] std::string shown(const SceneReader& reader, NodeId node);
 
-/// Items of a list; fails if the node is none.
+/// Items of `list`, which a Block has found to be one.
 [[nodiscard]] std::vector<NodeId> items(const SceneReader& reader, NodeId list);
 
 /// An object of the file together with its table.

@@ -38,20 +38,10 @@ void sin_cos(double degrees, double& sine, double& cosine) {
     }
 }
 
-glm::dmat3 rotation(const Rotation& r) { // Rodrigues
-    const glm::dvec3 a = unit(r.axis);
-    double s = 0, c = 1;
-    sin_cos(r.degrees, s, c);
-    const double k = 1 - c;
-    return glm::dmat3(glm::dvec3(c + k * a.x * a.x, k * a.x * a.y + s * a.z, k * a.x * a.z - s * a.y),
-                      glm::dvec3(k * a.x * a.y - s * a.z, c + k * a.y * a.y, k * a.y * a.z + s * a.x),
-                      glm::dvec3(k * a.x * a.z + s * a.y, k * a.y * a.z - s * a.x, c + k * a.z * a.z));
-}
-
 struct Append {
     AffineTransform& so_far;
     void operator()(const Rotation& r) const {
-        const glm::dmat3 m = rotation(r);
+        const glm::dmat3 m = matrix_of(r);
         so_far.linear = m * so_far.linear;
         so_far.translation = m * so_far.translation;
     }
@@ -63,6 +53,16 @@ struct Append {
 };
 
 } // namespace
+
+glm::dmat3 matrix_of(const Rotation& rotation) { // Rodrigues
+    const glm::dvec3 a = unit(rotation.axis);
+    double s = 0, c = 1;
+    sin_cos(rotation.degrees, s, c);
+    const double k = 1 - c;
+    return glm::dmat3(glm::dvec3(c + k * a.x * a.x, k * a.x * a.y + s * a.z, k * a.x * a.z - s * a.y),
+                      glm::dvec3(k * a.x * a.y - s * a.z, c + k * a.y * a.y, k * a.y * a.z + s * a.x),
+                      glm::dvec3(k * a.x * a.z + s * a.y, k * a.y * a.z - s * a.x, c + k * a.z * a.z));
+}
 
 AffineTransform compose(std::span<const Transformation> transformations) {
     AffineTransform result;

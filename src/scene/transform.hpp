@@ -19,6 +19,9 @@ struct AffineTransform {
 /// Similarity: uniform scale times a rotation or a mirrored one, so a sphere stays a sphere.
 enum class TransformClass { similarity, affine };
 
+/// Right-handed; exact at quarter turns about the axes.
+[[nodiscard]] glm::dmat3 matrix_of(const Rotation& rotation);
+
 /// Applied to the object first to last.
 [[nodiscard]] AffineTransform compose(std::span<const Transformation> transformations);
 

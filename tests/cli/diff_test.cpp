@@ -150,6 +150,16 @@ TEST_CASE("sizes and windows that differ are a difference, whatever the limits")
     outcome = diff(options);
     CHECK(outcome.code == 1);
     CHECK(contains(outcome.text, "the sizes differ"));
+
+    write_exr(c, some_film({20, 5, 30, 15}));
+    options = between(b, c);
+    for (const char* name : {"d.exr", "d.png"}) { // no pixel to make a difference picture of
+        options.output = directory.path / name;
+        outcome = diff(options);
+        CHECK(outcome.code == 1);
+        CHECK(contains(outcome.text, "no pixel in common"));
+        CHECK(!std::filesystem::exists(options.output));
+    }
 }
 
 TEST_CASE("what cannot be read is an asset error that names the file") {

@@ -27,7 +27,7 @@ TEST_CASE("check: ok, counts, warnings on the standard error; nothing is written
     Outcome outcome = run({"check", "small.json"}, {.directory = here});
     CHECK(outcome.code == 0);
     CHECK(outcome.out == "small.json: ok, 5 objects, 4 lights, 1 warning\n");
-    CHECK(outcome.err == "small.json: warning: 1 degenerate triangles were dropped\n");
+    CHECK(outcome.err == "small.json: warning: 1 degenerate triangle was dropped\n");
     outcome = run({"check", "small.json", "--quiet"}, {.directory = here});
     CHECK(outcome.code == 0);
     CHECK((outcome.out + outcome.err).empty());
@@ -68,7 +68,7 @@ TEST_CASE("info --json") {
     for (const char* text :
          {"\"scene\": \"small.json\"", "\"meshes\": 1", "\"triangles\": 3", "\"triangles\": 4", "\"degenerate_triangles\": 1",
           "\"leaf_sizes\": [3, 0, 1, 0, 0, 0, 0, 0]", "\"refraction\": true", "\"exact\": true", "\"name\": \"scalar\"",
-          "\"bounds_max\": [2.21", "1 degenerate triangles were dropped"}) {
+          "\"bounds_max\": [2.21", "1 degenerate triangle was dropped"}) {
         CAPTURE(text);
         CHECK(contains(json, text));
     }

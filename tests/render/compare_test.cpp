@@ -89,6 +89,19 @@ TEST_CASE("one code of 255 is not off, two are") {
     }
 }
 
+TEST_CASE("a threshold below the rounding of codes is kept, too") {
+    const Film a = random_film(5);
+    Film b = a;
+    float& value = value_at(b, 1, 2, 0);
+    value = std::nextafter(value, infinity);
+    const double d = compare(a, b).largest;
+    CHECK(d > 0);
+    CHECK(compare(a, b, 0).off_pixels == 1);
+    CHECK(compare(a, b, 0.9 * d).off_pixels == 1);
+    CHECK(compare(a, b, d).off_pixels == 0);
+    CHECK(compare(a, b, 1.1 * d).off_pixels == 0);
+}
+
 TEST_CASE("NaN and infinity differ infinitely, but for equal infinities") {
     for (const float bad : {not_a_number, infinity, -infinity}) {
         const Film a = random_film(4);
