@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -24,6 +25,7 @@ int run(int argc, char** argv) {
     add_info(app, command);
     add_pick(app, command);
     add_diff(app, command);
+    add_schema(app, command);
     describe_usage(app);
     try {
         app.parse(argc, argv);
@@ -33,8 +35,9 @@ int run(int argc, char** argv) {
     return command();
 }
 
-int fail(ExitCode code, const char* message) {
-    print_message(message);
+/// Messages about a file already say `file: error: what`.
+int fail(ExitCode code, const std::string& message) {
+    print_message(message.find("error: ") != std::string::npos ? message : "lanecast: error: " + message);
     return static_cast<int>(code);
 }
 
@@ -47,10 +50,10 @@ int main(int argc, char** argv) {
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const Interrupted& interrupted) {
-        print_message("interrupted");
+        print_message("lanecast: interrupted; no picture was written");
         return 128 + interrupted.signal;
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::memory, "error: out of memory");
+        return fail(ExitCode::memory, "out of memory");
     } catch (const std::system_error& error) {
         // a thread that could not be started is a limit of the machine, too
         const bool limit = error.code() == std::errc::resource_unavailable_try_again;
@@ -58,6 +61,6 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(ExitCode::failure, error.what());
     } catch (...) {
-        return fail(ExitCode::failure, "error: unknown exception");
+        return fail(ExitCode::failure, "unknown exception");
     }
 }

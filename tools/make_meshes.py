@@ -299,8 +299,9 @@ def hall():
         quad(*(wall if side < 0 else wall[::-1]), "wall")
         for y0, y1, out in ((0, 0.5, 0.16), (7.3, 7.5, 0.16)):  # skirting and cornice
             box(mesh, (x - out, y0, HALL_BACK), (x + out, y1, HALL_FRONT), "trim")
-    quad((-HALL_X, HALL_TOP, HALL_BACK), (-HALL_X, HALL_TOP, HALL_FRONT), (HALL_X, HALL_TOP, HALL_FRONT), (HALL_X, HALL_TOP, HALL_BACK), "wall")
-    quad((-HALL_X, 0, HALL_FRONT), (HALL_X, 0, HALL_FRONT), (HALL_X, HALL_TOP, HALL_FRONT), (-HALL_X, HALL_TOP, HALL_FRONT), "wall")
+    x, y, z0, z1 = HALL_X, HALL_TOP, HALL_BACK, HALL_FRONT
+    quad((-x, y, z0), (-x, y, z1), (x, y, z1), (x, y, z0), "wall")
+    quad((-x, 0, z1), (x, 0, z1), (x, y, z1), (-x, y, z1), "wall")
     box(mesh, (-HALL_X, 0, HALL_BACK), (HALL_X, 0.5, HALL_BACK + 0.16), "trim")
     return mesh
 
@@ -328,8 +329,8 @@ def box(mesh, lo, hi, material):
 def floor(pitch=1.1, inset=0.30, joint=0.012):
     """Octagons and squares in y = 0 over the hall's area, with joints between them."""
     mesh = Mesh()
-    mesh.face((-HALL_X, -0.004, HALL_BACK), (-HALL_X, -0.004, HALL_FRONT), (HALL_X, -0.004, HALL_FRONT), (HALL_X, -0.004, HALL_BACK),
-              material="joint")
+    x, y, z0, z1 = HALL_X, -0.004, HALL_BACK, HALL_FRONT
+    mesh.face((-x, y, z0), (-x, y, z1), (x, y, z1), (x, y, z0), material="joint")
     h, c = pitch / 2 - joint, inset * pitch  # c: what the squares cut from each corner
     for i in range(-6, 7):
         for k in range(-7, 17):
@@ -339,7 +340,7 @@ def floor(pitch=1.1, inset=0.30, joint=0.012):
             a = h - c
             octagon = [(-h, -a), (-h, a), (-a, h), (a, h), (h, a), (h, -a), (a, -h), (-a, -h)]
             mesh.face(*[(x + u, 0.0, z + v) for u, v in octagon], material="light" if (i + k) % 2 else "warm")
-            s = c + joint - joint * 1.5
+            s = c - joint / 2
             square = [(0, -s), (-s, 0), (0, s), (s, 0)]
             mesh.face(*[(x + pitch / 2 + u, 0.0, z + pitch / 2 + v) for u, v in square], material="dark")
     return mesh
@@ -432,7 +433,8 @@ def main():
     write_obj(out / "floor.obj", floor(), "octagonal tiles with square insets",
               {"light": (0.76, 0.73, 0.67), "warm": (0.58, 0.54, 0.48), "dark": (0.06, 0.09, 0.11), "joint": (0.22, 0.21, 0.20)})
     write_ply(out / "gem.ply", outward(gem()), "a brilliant cut", binary=False)
-    write_obj(out / "checkerboard.obj", checkerboard(), "48 x 48 unit squares", {"light": (0.80, 0.76, 0.66), "dark": (0.16, 0.22, 0.28)})
+    write_obj(out / "checkerboard.obj", checkerboard(), "48 x 48 unit squares",
+              {"light": (0.80, 0.76, 0.66), "dark": (0.16, 0.22, 0.28)})
     write_obj(out / "dodecahedron.obj", dodecahedron(), "a dodecahedron in six colours",
               {"colour00": (0.80, 0.20, 0.15), "colour01": (0.95, 0.55, 0.15), "colour10": (0.20, 0.45, 0.75),
                "colour11": (0.15, 0.60, 0.55), "colour20": (0.90, 0.82, 0.35), "colour21": (0.45, 0.25, 0.55)}, relative=True)

@@ -11,7 +11,7 @@ namespace lanecast {
 namespace {
 
 void add_point(JsonWriter& json, const char* key, const glm::dvec3& p) {
-    const double values[] = {p.x, p.y, p.z};
+    const double values[] = {p.x + 0.0, p.y + 0.0, p.z + 0.0}; // no -0
     json.add_numbers(key, std::span<const double>(values));
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 std::string number(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
+    std::snprintf(text, sizeof text, "%.6g", value + 0.0); // no -0
     return text;
 }
 
@@ -85,7 +85,8 @@ std::string info_text(const RequestedScene& scene, const SceneArrays& arrays) {
     line(text, "primitives", breakdown(primitives, [](std::size_t i, std::size_t n) { return counted(n, primitive_names[i]); }));
     if (arrays.degenerate_triangles > 0)
         line(text, "triangles",
-             std::to_string(counts.triangles) + ", " + std::to_string(arrays.degenerate_triangles) + " degenerate ones dropped");
+             std::to_string(counts.triangles) +
+                 " in the file; degenerate and dropped: " + std::to_string(arrays.degenerate_triangles));
     line(text, "lights",
          breakdown(counts.lights, [](std::size_t i, std::size_t n) { return std::to_string(n) + " " + lights[i]; }));
     line(text, "image",

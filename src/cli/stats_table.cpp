@@ -24,7 +24,7 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 double as_double(std::uint64_t count) { return static_cast<double>(count); }
 
 void add_stage(std::string& table, const char* name, double seconds, const std::string& note) {
-    line(table, "  %-12s %10s  %s", name, short_seconds(seconds).c_str(), note.c_str());
+    line(table, "  %-20s %9s  %s", name, short_seconds(seconds).c_str(), note.c_str());
 }
 
 /// Of the frame: what its threads did with their time.
@@ -32,13 +32,13 @@ void add_frame(std::string& table, const FrameStats& stats) {
     const double in_tiles = as_double(stats.tiles.total_ticks);
     std::uint64_t tracing = 0;
     const auto add = [&](const char* name, double ticks) {
-        line(table, "    %-13s %7s  %5.1f %%", name, short_seconds(ratio(ticks, stats.ticks_per_second)).c_str(),
+        line(table, "    %-18s %9s  %5.1f %%", name, short_seconds(ratio(ticks, stats.ticks_per_second)).c_str(),
              100 * ratio(ticks, stats.threads * stats.seconds * stats.ticks_per_second));
     };
     for (int kind = 0; kind < ray_kind_count; ++kind) {
         const RayKindStats& k = stats.tiles.kinds[kind];
         tracing += k.ticks;
-        if (k.rays > 0) add((std::string("trace ") + ray_names[kind]).substr(0, 16).c_str(), as_double(k.ticks));
+        if (k.rays > 0) add((std::string("trace ") + ray_names[kind]).c_str(), as_double(k.ticks));
     }
     add("shade, rest", in_tiles - as_double(tracing));
     add("idle", std::max(0.0, stats.threads * stats.seconds * stats.ticks_per_second - in_tiles));
@@ -90,7 +90,8 @@ std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     add_stage(table, "load", report.load_seconds, "");
     add_stage(table, "bake", report.flatten_seconds, "");
     add_stage(table, "build", report.build_seconds, "");
-    add_stage(table, "frame", stats.seconds, "of which, as time of " + std::to_string(stats.threads) + " threads:");
+    add_stage(table, "frame", stats.seconds,
+              "of which, summed over " + counted(static_cast<std::size_t>(stats.threads), "thread") + ":");
     add_frame(table, stats);
     add_stage(table, "write", report.write_seconds, "");
     add_rays(table, stats);

@@ -59,7 +59,10 @@ std::string nearest(const CLI::App& command, const std::string& word) {
 
 std::string explanation(const CLI::App& command, const CLI::ParseError& error) {
     const auto extras = command.remaining();
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || extras.empty()) return error.what();
+    const bool no_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command.get_parent() == nullptr;
+    if (extras.empty() && no_command) return "a command is required: render, check, info, pick, diff or schema";
+    const bool not_known = no_command || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    if (extras.empty() || !not_known) return error.what();
     const std::string near = nearest(command, extras.front());
     return "'" + printable(extras.front()) + "' is not known here" + (near.empty() ? "" : "; did you mean '" + near + "'?");
 }

@@ -60,7 +60,7 @@ template <ScalarBatch T>
 LANECAST_INLINE T copysign(T magnitude, T sign) {
     return std::copysign(magnitude, sign);
 }
-/// a * b + c with the product exact: fused on every ISA without the FMA instruction (numerics: the refined quadrics).
+/// a * b + c with the product exact: fused on every ISA without the FMA instruction (docs/numerics.md).
 LANECAST_INLINE float fused(float a, float b, float c) {
     return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 }

@@ -28,7 +28,7 @@ template <class Real>
 class Search {
 public:
     Search(const SeedScene<Real>& scene, const SeedFaults& faults, const SeedRay<Real>& ray)
-        : scene_(scene), faults_(faults), ray_(ray) {}
+        : scene_(scene), faults_(faults), ray_(ray), inv_dir_(Real(1) / ray.dir) {}
 
     SeedHit<Real> closest() {
         if (!scene_.nodes.empty()) visit(0);
@@ -41,8 +41,8 @@ private:
         const SeedNode<Real>& node = scene_.nodes[static_cast<std::size_t>(index)];
         Real near = -std::numeric_limits<Real>::infinity(), far = std::numeric_limits<Real>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            Real t0 = (node.box.lo[axis] - ray_.org[axis]) / ray_.dir[axis],
-                 t1 = (node.box.hi[axis] - ray_.org[axis]) / ray_.dir[axis];
+            Real t0 = (node.box.lo[axis] - ray_.org[axis]) * inv_dir_[axis];
+            Real t1 = (node.box.hi[axis] - ray_.org[axis]) * inv_dir_[axis];
             if (t0 > t1) std::swap(t0, t1);
             if (t0 > near) near = t0; // as written, NaN leaves the axis out
             if (t1 < far) far = t1;
@@ -62,9 +62,9 @@ private:
         if (own && (flat || !ray_.inward)) return;
         far_only_ = own;
         index_ = index;
+        if (body.kind == BodyKind::plane) return meet_plane(body);
         const Vec<Real> org(body.object_from_world * glm::vec<4, Real>(ray_.org, Real(1)));
         const Vec<Real> dir(body.object_from_world * glm::vec<4, Real>(ray_.dir, Real(0)));
-        if (body.kind == BodyKind::plane) return meet_plane(body);
         if (body.kind == BodyKind::triangle) return meet_triangle(body, org, dir);
         if (body.kind == BodyKind::sphere) return meet_sphere(body, org, dir);
         if (faults_.cylinder_caps) return meet_cylinder_as_seed(body, org, dir);
@@ -93,7 +93,7 @@ private:
 
     void meet_triangle(const Body<Real>& body, const Vec<Real>& org, const Vec<Real>& dir) {
         const auto& [a, b, c] = body.vertices;
-        const Vec<Real> n = glm::normalize(glm::cross(b - a, c - b));
+        const Vec<Real>& n = body.normal;
         const Real approach = glm::dot(n, dir);
         if (approach == 0) return;
         const Real t = glm::dot(n, a - org) / approach;
@@ -171,6 +171,7 @@ private:
     const SeedScene<Real>& scene_;
     const SeedFaults& faults_;
     const SeedRay<Real>& ray_;
+    Vec<Real> inv_dir_;
     SeedHit<Real> best_{};
     int index_ = -1;        ///< the body being met
     bool far_only_ = false; ///< it is the one the ray leaves from, into its inside

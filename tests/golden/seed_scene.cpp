@@ -45,6 +45,8 @@ public:
             const Mesh& mesh = std::get<Mesh>(object.shape);
             for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
                 for (std::size_t k = 0; k < 3; ++k) body.vertices[k] = Vec<Real>(mesh.positions[mesh.triangles[i][k]]);
+                const auto& [a, b, c] = body.vertices;
+                body.normal = glm::normalize(glm::cross(b - a, c - b));
                 if (!mesh.materials.empty()) body.material = &mesh.materials[mesh.triangle_material[i]];
                 add_bounded(body, m, BodyKind::triangle);
             }

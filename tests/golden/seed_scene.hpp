@@ -28,7 +28,8 @@ struct Body {
     Matrix<Real> world_from_object{1}, object_from_world{1};
     Real radius = 0, height = 0;         ///< of spheres and cylinders, in object space
     std::array<Vec<Real>, 3> vertices{}; ///< of triangles, in object space
-    Vec<Real> position{0}, normal{0};    ///< of planes; unit unless plane_normal_length
+    Vec<Real> position{0};               ///< of planes
+    Vec<Real> normal{0};                 ///< of planes and, in object space, triangles; unit unless plane_normal_length
 };
 
 template <class Real>

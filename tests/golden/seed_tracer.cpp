@@ -115,12 +115,13 @@ private:
 };
 
 template <class Real>
-void render(const Tracer<Real>& tracer, Film& film, int threads) {
+void render(const Tracer<Real>& tracer, Film& film, int threads, std::span<const std::uint8_t> wanted) {
     const auto rows = [&](int first) {
         for (int y = first; y < film.height; y += threads)
             for (int x = 0; x < film.width; ++x) {
-                const Vec<Real> color = tracer.pixel(x, y);
                 const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x);
+                if (!wanted.empty() && wanted[at] == 0) continue;
+                const Vec<Real> color = tracer.pixel(x, y);
                 for (int c = 0; c < 3; ++c) film.rgb[static_cast<std::size_t>(c)][at] = static_cast<float>(color[c]);
             }
     };
@@ -132,12 +133,12 @@ void render(const Tracer<Real>& tracer, Film& film, int threads) {
 } // namespace
 
 Film render_seed(const SceneDescription& description, const RenderSettings& settings, const SeedFaults& faults, int width,
-                 int height, int threads) {
+                 int height, int threads, std::span<const std::uint8_t> wanted) {
     Film film = make_film(width, height, {0, 0, width, height});
     if (faults.single_precision)
-        render(Tracer<float>(description, settings, faults, width, height), film, threads);
+        render(Tracer<float>(description, settings, faults, width, height), film, threads, wanted);
     else
-        render(Tracer<double>(description, settings, faults, width, height), film, threads);
+        render(Tracer<double>(description, settings, faults, width, height), film, threads, wanted);
     return film;
 }
 

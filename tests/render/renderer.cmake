@@ -14,3 +14,8 @@ lanecast_test(test_whitted LABELS unit
   render/whitted_oracle.cpp
   render/render_support.cpp
   scene/geometry_support.cpp)
+lanecast_test(test_switches LABELS unit
+  SOURCES
+  render/switches_test.cpp
+  render/render_support.cpp
+  scene/geometry_support.cpp)

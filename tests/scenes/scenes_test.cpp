@@ -104,7 +104,7 @@ TEST_CASE("every scene loads strictly and shows something") {
 
 TEST_CASE("each feature's scene shows its feature: without it the picture is another one") {
     struct Case {
-        const char* name;
+        std::string name;
         void (*without)(SceneDescription&);
     };
     const Case cases[] = {
@@ -143,10 +143,23 @@ TEST_CASE("each feature's scene shows its feature: without it the picture is ano
     };
     for (const auto& [name, without] : cases) {
         CAPTURE(name);
-        const auto file = std::filesystem::path(LANECAST_SOURCE_DIR "/scenes") / (std::string(name) + ".json");
+        const auto file = std::filesystem::path(LANECAST_SOURCE_DIR "/scenes") / (name + ".json");
         SceneDescription scene = load_scene(file, {.strict = true}).description;
         const Film with_it = render_small(scene, scene.render);
         without(scene);
         CHECK(changed_pixels(with_it, render_small(scene, scene.render)) > 64 * 36 / 50);
     }
+}
+
+TEST_CASE("the README's scene loads strictly and shows something") {
+    const std::string readme = text_of(LANECAST_SOURCE_DIR "/README.md");
+    const std::string fence = "```json\n";
+    const std::size_t begin = readme.find(fence);
+    REQUIRE(begin != std::string::npos);
+    const std::string text = readme.substr(begin + fence.size(), readme.find("```", begin + fence.size()) - begin - fence.size());
+    const LoadedScene scene = parse_scene(text, "README.md", LANECAST_SOURCE_DIR "/scenes", {.strict = true});
+    const PixelCounts counts =
+        count_pixels(render_small(scene.description, scene.description.render), scene.description.camera.background);
+    CHECK(counts.not_finite == 0);
+    CHECK(counts.background < 64 * 36 / 2);
 }

@@ -25,8 +25,9 @@ LANECAST_INLINE LightAt<F> light_at(const LightRecord& light, const Vec3<F>& poi
     const Vec3<F> to_light = splat<F>(light.position) - point;
     const F distance = length(to_light);
     const Vec3<F> wi = to_light * (F(1) / distance);
-    const F scale = F(1) / (F(S(light.attenuation[0])) +
-                            distance * (F(S(light.attenuation[1])) + distance * F(S(light.attenuation[2]))));
+    F scale = F(S(1) / S(light.attenuation[0]));
+    if (light.attenuation[1] != 0.0f || light.attenuation[2] != 0.0f)
+        scale = F(1) / (F(S(light.attenuation[0])) + distance * (F(S(light.attenuation[1])) + distance * F(S(light.attenuation[2]))));
     const Mask<F> lit = light.kind == LightKind::spot ? -dot(wi, splat<F>(light.direction)) >= F(S(light.cos_cutoff)) : Mask<F>(true);
     return {to_light, wi, scale, lit};
 }

@@ -38,7 +38,6 @@ struct Packet {
     // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
     S interval_near[3], interval_far[3];
     S rcp_min[3], rcp_max[3];
-    S spread; ///< of the slopes dir[kx] / dir[kz] and dir[ky] / dir[kz], 0 to 2
     S t_max;  ///< largest t
 
     [[nodiscard]] LANECAST_INLINE ShearedRay<F> sheared(std::uint32_t i) const {
@@ -114,7 +113,6 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         rcp_min[axis] = infinity;
         rcp_max[axis] = -infinity;
     }
-    F slope_min[2] = {infinity, infinity}, slope_max[2] = {-infinity, -infinity};
     F t_max(S(-1));
     for (std::uint32_t i = 0; i < padded; i += W) {
         // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
@@ -131,10 +129,6 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         store(packet.shear[0] + i, sx);
         store(packet.shear[1] + i, sy);
         store(packet.shear[2] + i, inv_dz);
-        slope_min[0] = min(slope_min[0], sx);
-        slope_max[0] = max(slope_max[0], sx);
-        slope_min[1] = min(slope_min[1], sy);
-        slope_max[1] = max(slope_max[1], sy);
         // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
         const F least = abs(dz) * F(S(8.7e-19));
 #pragma GCC unroll 3
@@ -155,8 +149,6 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         t_max = max(t_max, load<F>(packet.t + i));
     }
     packet.t_max = reduce_max(t_max);
-    packet.spread =
-        (reduce_max(slope_max[0]) - reduce_min(slope_min[0])) + (reduce_max(slope_max[1]) - reduce_min(slope_min[1]));
     for (int axis = 0; axis < 3; ++axis) {
         packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
         packet.rcp_max[axis] = reduce_max(rcp_max[axis]);

@@ -15,7 +15,7 @@ struct Crossing {
 };
 
 /// A sphere of radius r, f = org - centre. The closest approach is refined once with the product exact (`fused`), so that the
-/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and numerics 4.3.
+/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and docs/numerics.md.
 template <FloatBatch F>
 LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r, Mask<F> active) {
     using S = Scalar<F>;
@@ -60,7 +60,9 @@ LANECAST_INLINE CylinderCrossing<F> cross_cylinder(const Vec3<F>& o, const Vec3<
     using S = Scalar<F>;
     const F infinity(std::numeric_limits<S>::infinity());
     const F a = d.x * d.x + d.z * d.z;
-    const Mask<F> parallel = a <= d.y * d.y * F(S(8.7e-19)); // 2^-60: the axis direction to within float
+    // 2^-100: only where `a` could have lost digits to underflow. On a flat disc y counts in units of its height, so a ray may well
+    // have 2^30 times more of it and still not run along the axis.
+    const Mask<F> parallel = a <= d.y * d.y * F(S(7.9e-31));
     const Mask<F> within = (o.x * o.x + o.z * o.z) <= F(1);
     const Crossing<F> body = cross_sphere<F>({o.x, F(0), o.z}, {d.x, F(0), d.z}, F(1), active & (!parallel));
     const Mask<F> body_hit = body.hit | (active & parallel & within);

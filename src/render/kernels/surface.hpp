@@ -34,7 +34,7 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
     into.error = select(lanes, from.error, into.error);
 }
 
-/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md, 1.1).
+/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
 template <FloatBatch F>
 LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot, Mask<F> lanes) {
     using S = Scalar<F>;
@@ -91,7 +91,12 @@ LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t reco
     const AffineRecord& affine = scene.affines[record];
     const AffineShadingRecord& forward = scene.affine_shading[record];
     const Vec3<F> translation = splat<F>(affine.translation);
-    return {multiply<F>(forward.world_from_object, p) + translation,
+    Vec3<F> position = multiply<F>(forward.world_from_object, p) + translation;
+    if constexpr (sizeof(Scalar<F>) == 8) { // the two matrices are inverse to within a float only: Newton's steps to the surface
+        for (int step = 0; step < 2; ++step)
+            position = position + multiply<F>(forward.world_from_object, p - point_to_object(affine, position));
+    }
+    return {position,
             normalize(multiply_transposed<F>(affine.object_from_world, n)),
             multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) + abs(translation) * F(two_u<F>)};
 }

@@ -3,7 +3,6 @@
 // are.
 
 #include "render/kernels/traverse.hpp"
-#include "render/kernels/traverse_single.hpp"
 
 #include "render/kernel_table.hpp"
 
@@ -93,12 +92,6 @@ void scatter_packet(const TraceScratch<F>& scratch, const RayBatch<F>& rays, std
 
 } // namespace detail
 
-/// Rays whose slopes spread wider than this share too few nodes for a packet, unless the tree is tiny. Measured:
-/// docs/performance.md.
-template <FloatBatch F>
-inline constexpr Scalar<F> max_packet_spread = Scalar<F>(1);
-inline constexpr std::uint32_t tiny_tree_leaves = 16;
-
 /// Fills t and slot of the first n (<= max_batch_rays) rays; Query::any: some hit's slot.
 template <Query query, FloatBatch F>
 void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, bool brute_force, TraceScratch<F>& scratch,
@@ -113,16 +106,12 @@ void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, boo
         for_each_unique<F>(key, first_lanes<F>(n - i), [&](std::int32_t k, Mask<F>) { keys |= 1u << k; });
     }
     Occupancy occupancy{};
-    const bool packets_only = brute_force || scene.leaf_count <= tiny_tree_leaves;
     for_each_bit(keys, [&](std::uint32_t key) {
         for (std::uint32_t vector = 0; vector * W < n;) {
             const std::uint32_t segments = detail::gather_packet(scratch, rays, n, static_cast<std::int32_t>(key), vector);
             if (segments == 0) break;
             finish_packet(scratch.packet, static_cast<std::int32_t>(key), scene.max_coordinate);
-            if (packets_only || scratch.packet.spread <= max_packet_spread<F>)
-                traverse_packet<query>(scene, scratch.packet, brute_force, occupancy);
-            else
-                traverse_singles<query>(scene, scratch.packet, occupancy);
+            traverse_packet<query>(scene, scratch.packet, brute_force, occupancy);
             detail::scatter_packet(scratch, rays, segments);
         }
     });

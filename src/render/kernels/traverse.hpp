@@ -1,18 +1,26 @@
 #pragma once
 // Packets through the tree: one interval test of a node's eight children for the whole packet, then each surviving child
-// against each vector that is still in its subtree; nearest child first.
+// against each vector that is still in its subtree; nearest child first. Where few rays are left, each goes on alone.
 
-#include "render/kernels/leaf.hpp"
+#include "render/kernels/traverse_single.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
 
-inline constexpr int stack_capacity = 7 * max_bvh_depth + 1;
+/// A subtree that this many rays or fewer enter is walked by each of them alone. Measured: docs/performance.md.
+inline constexpr std::uint32_t few_rays = 4;
+
+/// The rays of a packet that enter a subtree.
+struct Entering {
+    std::uint32_t vectors; ///< bit v: some ray of vector v
+    std::uint32_t count;   ///< of the rays when they are few; 0: many, only `vectors` is known
+    std::uint8_t rays[few_rays];
+};
 
 template <FloatBatch F>
 struct StackEntry {
     std::uint64_t child;
     Scalar<F> near; ///< no ray of the packet enters before
-    std::uint32_t vectors;
+    Entering rays;
 };
 
 /// Lanes active at the first and last test, for the statistics.
@@ -43,17 +51,18 @@ LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhN
     return entered & 0xffu;
 }
 
-/// Bit v of `vectors` stays when a ray of vector v may enter the child.
+/// Of the vectors in `vectors`, those with rays that may enter the child.
 template <FloatBatch F>
-LANECAST_INLINE std::uint32_t enter_vectors(const Packet<F>& packet, const BvhNode& node, std::uint32_t child,
-                                            std::uint32_t vectors) {
+LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& node, std::uint32_t child, std::uint32_t vectors) {
     using S = Scalar<F>;
     F near_plane[3], far_plane[3];
     for (int axis = 0; axis < 3; ++axis) {
         near_plane[axis] = F(S(packet.negative[axis] ? node.hi[axis][child] : node.lo[axis][child]));
         far_plane[axis] = F(S(packet.negative[axis] ? node.lo[axis][child] : node.hi[axis][child]));
     }
-    std::uint32_t entered = 0;
+    Entering entering{};
+    std::uint32_t lanes_of[packet_vectors];
+    std::uint32_t count = 0;
     for_each_bit(vectors, [&](std::uint32_t vector) {
         const std::uint32_t i = vector * width<F>;
         F enter(0), leave = load<F>(packet.t + i);
@@ -63,9 +72,18 @@ LANECAST_INLINE std::uint32_t enter_vectors(const Packet<F>& packet, const BvhNo
             enter = max((near_plane[axis] - load<F>(packet.org_near[axis] + i)) * rcp, enter);
             leave = min((far_plane[axis] - load<F>(packet.org_far[axis] + i)) * rcp, leave);
         }
-        entered |= (any(enter <= leave) ? 1u : 0u) << vector;
+        const std::uint32_t lanes = bits(enter <= leave);
+        lanes_of[vector] = lanes;
+        count += count_bits(lanes);
+        entering.vectors |= (lanes != 0 ? 1u : 0u) << vector;
     });
-    return entered;
+    if (count > few_rays) return entering;
+    for_each_bit(entering.vectors, [&](std::uint32_t vector) {
+        for_each_bit(lanes_of[vector], [&](std::uint32_t lane) {
+            entering.rays[entering.count++] = static_cast<std::uint8_t>(vector * width<F> + lane);
+        });
+    });
+    return entering;
 }
 
 template <FloatBatch F>
@@ -76,20 +94,40 @@ LANECAST_INLINE void update_t_max(Packet<F>& packet) {
     packet.t_max = reduce_max(t_max);
 }
 
+/// The few rays of an entry, one by one. Returns whether some ray's t changed.
+template <Query query, FloatBatch F>
+bool traverse_alone(const SceneView& scene, Packet<F>& packet, const StackEntry<F>& entry) {
+    bool changed = false;
+    for (std::uint32_t k = 0; k < entry.rays.count; ++k) {
+        const std::uint32_t i = entry.rays.rays[k];
+        if (entry.near > packet.t[i]) continue;
+        SingleRay<F> ray(packet, i);
+        if (!traverse_single<query>(scene, ray, packet.axes, packet.negative, entry.child) && ray.slot == packet.slot[i]) continue;
+        changed = true;
+        packet.t[i] = ray.t;
+        packet.slot[i] = ray.slot;
+    }
+    return changed;
+}
+
 /// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
 template <Query query, FloatBatch F>
 std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
     std::uint32_t last = (1u << packet.vectors) - 1u;
     StackEntry<F> stack[stack_capacity];
     int top = 0;
-    stack[top++] = {0, 0, last};
+    stack[top++] = {0, 0, {last, 0, {}}};
     alignas(64) Scalar<F> near[16];
     while (top > 0) {
         const StackEntry<F> entry = stack[--top];
         if (entry.near > packet.t_max) continue;
-        if ((entry.child & child_is_leaf) != 0) {
-            last = entry.vectors;
-            if (hit_leaf<query>(scene, packet, entry.vectors, entry.child)) {
+        const bool leaf = (entry.child & child_is_leaf) != 0;
+        if (leaf || entry.rays.count > 0) {
+            last = entry.rays.vectors;
+            const bool changed = entry.rays.count > 0
+                                     ? traverse_alone<query>(scene, packet, entry)
+                                     : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
+            if (changed) {
                 update_t_max(packet);
                 if (query == Query::any && packet.t_max < Scalar<F>(0)) break;
             }
@@ -98,12 +136,12 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
         const auto& node = *reinterpret_cast<const BvhNode*>(scene.arena + entry.child * 64u);
         const int first_pushed = top;
         for_each_bit(enter_children(packet, node, near), [&](std::uint32_t c) {
-            const std::uint32_t vectors = enter_vectors(packet, node, c, entry.vectors);
-            if (vectors == 0) return;
+            const Entering entering = enter_vectors(packet, node, c, entry.rays.vectors);
+            if (entering.vectors == 0) return;
             // insertion by distance, the nearest on top
             int place = top++;
             for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];
-            stack[place] = {node.child[c], near[c], vectors};
+            stack[place] = {node.child[c], near[c], entering};
         });
     }
     return last;

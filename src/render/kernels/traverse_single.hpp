@@ -1,9 +1,11 @@
 #pragma once
-// The rays of an incoherent packet one by one: eight children, then eight triangles, per test.
+// One ray through a subtree: eight children, then eight triangles, per test. For the rays of a packet that are left alone.
 
-#include "render/kernels/traverse.hpp"
+#include "render/kernels/leaf.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
+
+inline constexpr int stack_capacity = 7 * max_bvh_depth + 1;
 
 /// Ray i of a packet, and what it has found.
 template <FloatBatch F>
@@ -103,16 +105,18 @@ LANECAST_INLINE void hit_leaf(const SceneView& scene, SingleRay<F>& ray, const A
     }
 }
 
+/// From the node or leaf `root` on. Returns whether ray.t changed.
 template <Query query, FloatBatch F>
-void traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const bool (&negative)[3]) {
+bool traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const bool (&negative)[3], std::uint64_t root) {
     using S = Scalar<F>;
     struct Entry {
         std::uint64_t child;
         S near;
     };
+    const S t_before = ray.t;
     Entry stack[stack_capacity];
     int top = 0;
-    stack[top++] = {0, 0};
+    stack[top++] = {root, 0};
     F org_near[3], org_far[3], rcp[3];
     for (int axis = 0; axis < 3; ++axis) {
         org_near[axis] = F(ray.org_near[axis]);
@@ -125,13 +129,14 @@ void traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes
         if (entry.near > ray.t) continue;
         if ((entry.child & child_is_leaf) != 0) {
             hit_leaf<query>(scene, ray, axes, entry.child);
-            if (query == Query::any && ray.t < S(0)) return;
+            if (query == Query::any && ray.t < S(0)) break;
             continue;
         }
         const auto& node = *reinterpret_cast<const BvhNode*>(scene.arena + entry.child * 64u);
         std::uint32_t entered = 0;
         for (int c = 0; c < 8; c += width<F>) {
             F enter(0), leave(ray.t);
+#pragma GCC unroll 3
             for (int axis = 0; axis < 3; ++axis) {
                 const F near_plane = load_eight<F>((negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
                 const F far_plane = load_eight<F>((negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
@@ -148,23 +153,7 @@ void traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes
             stack[place] = {node.child[c], near[c]};
         });
     }
-}
-
-template <Query query, FloatBatch F>
-void traverse_singles(const SceneView& scene, Packet<F>& packet, Occupancy& occupancy) {
-    hit_planes<query>(scene, packet);
-    occupancy.first_lanes += packet.count;
-    occupancy.first_active += packet.count;
-    for (std::uint32_t i = 0; i < packet.count; ++i) {
-        SingleRay<F> ray(packet, i);
-        if (scene.leaf_count != 0 && ray.t >= Scalar<F>(0)) {
-            traverse_single<query>(scene, ray, packet.axes, packet.negative);
-            packet.t[i] = ray.t;
-            packet.slot[i] = ray.slot;
-        }
-        occupancy.last_lanes += 1;
-        occupancy.last_active += ray.t >= Scalar<F>(0) ? 1u : 0u;
-    }
+    return ray.t != t_before;
 }
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -137,7 +137,8 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
         const Int<F> outward = source_outward(slot), inward = select(quadric, source_inward(slot), outward);
         const Int<F> back = select(inside, inward, outward), onward = select(inside, outward, inward);
         const Spawn<F> spawn{job, queue, v};
-        const Transmission<F> through = transmit(d, n, index, inside);
+        Transmission<F> through{d, Mask<F>(false), F(1)};
+        if (transmits || job.schlick != 0) through = transmit(d, n, index, inside);
         if (job.log != nullptr)
             log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
         if (reflects) {

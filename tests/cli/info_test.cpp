@@ -1,0 +1,75 @@
+// lanecast check and info: the whole text on a small scene.
+#include "cli/run_program.hpp"
+#include "render/output_support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+using namespace lanecast::test;
+
+namespace {
+
+const std::filesystem::path here = small_scene().parent_path();
+
+/// Without the line that depends on the machine and the build.
+std::string portable(const std::string& text) {
+    std::istringstream lines(text);
+    std::string out;
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with("instruction sets")) out += line + "\n";
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("check: ok, counts, warnings on the standard error; nothing is written") {
+    Outcome outcome = run({"check", "small.json"}, {.directory = here});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == "small.json: ok, 5 objects, 4 lights, 1 warning\n");
+    CHECK(outcome.err == "small.json: warning: 1 degenerate triangles were dropped\n");
+    outcome = run({"check", "small.json", "--quiet"}, {.directory = here});
+    CHECK(outcome.code == 0);
+    CHECK((outcome.out + outcome.err).empty());
+
+    const TemporaryDirectory directory;
+    put(directory.path / "empty.json", R"({"camera": {}, "objects": [], "lights": []})");
+    outcome = run({"check", "empty.json"}, {.directory = directory.path});
+    CHECK(outcome.out == "empty.json: ok, 0 objects, 0 lights\n");
+    CHECK(outcome.err.empty());
+    CHECK(run({"info", "empty.json"}, {.directory = directory.path}).code == 0);
+    CHECK(names_in(directory.path).size() == 1);
+}
+
+TEST_CASE("info: the text") {
+    const Outcome outcome = run({"info", "small.json", "--quiet"}, {.directory = here});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "instruction sets scalar"));
+    CHECK(contains(outcome.out, "(used)"));
+    CHECK(portable(outcome.out) == content_of(here / "small.info.txt"));
+}
+
+TEST_CASE("info: what is modelled follows the switches") {
+    const auto info = [](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"info", "small.json", "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run(arguments, {.directory = here}).out;
+    };
+    CHECK(contains(info({"--no-transmission"}), "planes, lights, specular, shadows, reflection\n"));
+    CHECK(contains(info({"--no-shadows", "--no-planes", "--no-reflections", "--no-transmission", "--no-specular"}),
+                   "models           triangles, spheres, ellipsoids, cylinders, lights\n"));
+    CHECK(contains(info({"--schlick", "--soft-shadows", "4", "--transmissive-shadows", "--aa", "edge"}),
+                   "leaves out       nothing\n"));
+}
+
+TEST_CASE("info --json") {
+    const std::string json = run({"info", "small.json", "--json"}, {.directory = here}).out;
+    for (const char* text :
+         {"\"scene\": \"small.json\"", "\"meshes\": 1", "\"triangles\": 3", "\"triangles\": 4", "\"degenerate_triangles\": 1",
+          "\"leaf_sizes\": [3, 0, 1, 0, 0, 0, 0, 0]", "\"refraction\": true", "\"exact\": true", "\"name\": \"scalar\"",
+          "\"bounds_max\": [2.21", "1 degenerate triangles were dropped"}) {
+        CAPTURE(text);
+        CHECK(contains(json, text));
+    }
+}
