@@ -8,6 +8,7 @@ What POV-Ray cannot say, and what stands for it:
 - `near`, soft shadows, anti-aliasing, Schlick's term: left out; time Lanecast without them too;
 - attenuation with a linear and a quadratic term: the quadratic one;
 - opaque shadows of transmissive objects: such an object gets `no_shadow`, and a twin that only shadow rays see.
+- one transparent object inside another: POV-Ray keeps count of what a ray is in, Lanecast's outside is always air.
 Only the standard library is used.
 """
 import argparse
