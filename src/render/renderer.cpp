@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace lanecast {
@@ -91,8 +92,9 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     job.pixel_order[1] = order.y.data();
     job.pixel_order_count = order.count;
 
-    const std::vector<Tile> tiles = make_tiles(crop, options.tile_size);
-    const int threads = std::max(1, std::min(options.threads, static_cast<int>(tiles.size())));
+    const TileGrid tiles(crop, options.tile_size);
+    int threads =
+        static_cast<int>(std::clamp<std::size_t>(tiles.count(), 1, static_cast<std::size_t>(std::max(options.threads, 1))));
     const std::uint64_t scratch_bytes = kernels.scratch_bytes(job);
     std::vector<AlignedBytes> scratch; // untouched pages cost nothing: levels that are never reached take address space only
     for (int i = 0; i < threads; ++i) scratch.push_back(make_aligned_bytes(scratch_bytes));
@@ -105,9 +107,9 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     const auto stopped = [&] { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); };
     const auto work = [&](int worker) {
         TileStats sum{};
-        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.size() && !stopped();
+        for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.count() && !stopped();
              i = next.fetch_add(1, std::memory_order_relaxed)) {
-            const TileStats tile = kernels.render_tile(job, tiles[i], scratch[static_cast<std::size_t>(worker)].get());
+            const TileStats tile = kernels.render_tile(job, tiles.at(i), scratch[static_cast<std::size_t>(worker)].get());
             add(sum, tile);
             done.fetch_add(1, std::memory_order_relaxed);
             rays.fetch_add(ray_count(tile), std::memory_order_relaxed);
@@ -123,12 +125,17 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     {
         std::vector<std::jthread> workers;
         // without progress the caller is a worker too: one thread less to start
-        for (int i = progress ? 0 : 1; i < threads; ++i) workers.emplace_back(work, i);
+        try {
+            for (int i = progress ? 0 : 1; i < threads; ++i) workers.emplace_back(work, i);
+        } catch (const std::system_error&) { // the machine has no more threads: those that started do the work
+            threads = static_cast<int>(workers.size()) + (progress ? 0 : 1);
+            if (threads == 0) throw;
+        }
         if (progress) {
             std::unique_lock lock(mutex);
             while (!all_done.wait_for(lock, std::chrono::milliseconds(100), [&] { return finished == threads; })) {
                 lock.unlock();
-                progress(static_cast<double>(done.load()) / static_cast<double>(tiles.size()), rays.load());
+                progress(static_cast<double>(done.load()) / static_cast<double>(tiles.count()), rays.load());
                 lock.lock();
             }
         } else {
@@ -138,7 +145,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
     frame.stats.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     frame.stats.ticks_per_second = static_cast<double>(__builtin_ia32_rdtsc() - begin_ticks) / frame.stats.seconds;
     frame.stats.threads = threads;
-    frame.complete = done.load() == tiles.size();
+    frame.complete = done.load() == tiles.count();
     return frame;
 }
 

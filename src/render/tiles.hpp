@@ -3,22 +3,32 @@
 
 #include "render/kernel_table.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace lanecast {
 
-/// Row by row; those at the border of `crop` are cut to it.
-[[nodiscard]] inline std::vector<Tile> make_tiles(const Tile& crop, int tile_size) {
-    std::vector<Tile> tiles;
-    for (int y = crop.y0 / tile_size * tile_size; y < crop.y1; y += tile_size)
-        for (int x = crop.x0 / tile_size * tile_size; x < crop.x1; x += tile_size)
-            tiles.push_back({x > crop.x0 ? x : crop.x0, y > crop.y0 ? y : crop.y0,
-                             x + tile_size < crop.x1 ? x + tile_size : crop.x1,
-                             y + tile_size < crop.y1 ? y + tile_size : crop.y1});
-    return tiles;
-}
+/// Numbered row by row; those at the border of `crop` are cut to it. A rule rather than a list: tiles may be as small as a pixel.
+struct TileGrid {
+    Tile crop;
+    int tile_size;
+    int first_x, first_y; ///< in tiles
+    int columns, rows;
+
+    TileGrid(const Tile& crop_, int tile_size_)
+        : crop(crop_), tile_size(tile_size_), first_x(crop_.x0 / tile_size_), first_y(crop_.y0 / tile_size_),
+          columns((crop_.x1 - 1) / tile_size_ + 1 - first_x), rows((crop_.y1 - 1) / tile_size_ + 1 - first_y) {}
+
+    [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    [[nodiscard]] Tile at(std::size_t i) const {
+        const int x = (first_x + static_cast<int>(i % static_cast<std::size_t>(columns))) * tile_size;
+        const int y = (first_y + static_cast<int>(i / static_cast<std::size_t>(columns))) * tile_size;
+        return {std::max(x, crop.x0), std::max(y, crop.y0), std::min(x + tile_size, crop.x1), std::min(y + tile_size, crop.y1)};
+    }
+};
 
 /// x and y of the pixels of a square, in Morton order: neighbours in the list are neighbours in the image, so packets are
 /// compact.

@@ -38,16 +38,24 @@ public:
         std::unique_lock lock(mutex_);
         if (working && --workers_ == 0 && next_ == tasks_.size()) changed_.notify_all();
         working = false;
-        changed_.wait(lock, [&] { return next_ < tasks_.size() || workers_ == 0; });
-        if (next_ == tasks_.size()) return false;
+        changed_.wait(lock, [&] { return aborted_ || next_ < tasks_.size() || workers_ == 0; });
+        if (aborted_ || next_ == tasks_.size()) return false;
         task = tasks_[next_++];
         ++workers_;
         return working = true;
     }
 
+    /// A worker failed: nobody waits for what it would have pushed.
+    void abort() {
+        const std::lock_guard lock(mutex_);
+        aborted_ = true;
+        changed_.notify_all();
+    }
+
 private:
     std::mutex mutex_;
     std::condition_variable changed_;
+    bool aborted_ = false;
     std::vector<Task> tasks_;
     std::size_t next_ = 0;
     int workers_ = 0;
@@ -119,7 +127,12 @@ private:
     void work() {
         NodeCursor cursor;
         Task task;
-        for (bool working = false; queue_.pop(task, working);) build(cursor, task);
+        try {
+            for (bool working = false; queue_.pop(task, working);) build(cursor, task);
+        } catch (...) { // out of memory
+            queue_.abort();
+            throw;
+        }
     }
 
     void reserve(NodeCursor& cursor, std::uint32_t count) {

@@ -32,7 +32,7 @@ void add(Part& part, const BvhNode& node) {
             part.node_area += area;
             continue;
         }
-        const auto count = static_cast<std::uint32_t>(node.child[i] >> child_count_shift & 7u) + 1;
+        const auto count = static_cast<std::uint32_t>(node.child[i] >> child_count_shift & child_count_mask) + 1;
         part.test_area += area * count;
         ++part.leaves;
         ++part.leaf_sizes[count];

@@ -101,8 +101,8 @@ void set_attributes(const FlatObject& flat, const FlatMaterials& materials, std:
 
 void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const FlatObjects& objects, const Bounded& bounded,
                const FlatMaterials& materials, SceneArrays& arrays) {
-    const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & 7u);
-    const std::uint32_t count = static_cast<std::uint32_t>(leaf >> child_count_shift & 7u) + 1;
+    const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & child_kind_mask);
+    const std::uint32_t count = static_cast<std::uint32_t>(leaf >> child_count_shift & child_count_mask) + 1;
     const auto slot = static_cast<std::uint32_t>(leaf);
     const bool is_triangle = kind == PrimitiveKind::triangle;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -116,7 +116,7 @@ void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const FlatObjects& obje
     }
     if (is_triangle)
         write_triangle_leaf(objects, bounded.vertices, refs, count,
-                            static_cast<std::uint32_t>(leaf >> child_block_shift & 0x1ffffffu), arrays.arena.get(),
+                            static_cast<std::uint32_t>(leaf >> child_block_shift & child_block_mask), arrays.arena.get(),
                             &arrays.triangles[slot]);
 }
 

@@ -26,6 +26,9 @@ inline constexpr std::uint64_t child_is_leaf = 1ull << 63;
 inline constexpr int child_kind_shift = 60;  ///< 3 bits
 inline constexpr int child_count_shift = 57; ///< 3 bits, count - 1
 inline constexpr int child_block_shift = 32; ///< 25 bits, so an arena of at most 2 GiB
+inline constexpr std::uint64_t child_kind_mask = 7;
+inline constexpr std::uint64_t child_count_mask = 7;
+inline constexpr std::uint64_t child_block_mask = 0x1ffffff;
 inline constexpr int max_leaf_size = 8;
 inline constexpr int max_bvh_depth = 64; ///< levels of nodes; a traversal stack needs 7 * max_bvh_depth + 1 entries
 

@@ -141,9 +141,9 @@ void add_light(Wavefront<F>& w, RayQueue<F>& queue, std::uint32_t light_index) {
     for (std::uint32_t v = 0; v * width<F> < queue.count; ++v) {
         const std::uint32_t i = v * width<F>;
         l.lit[v] = 0;
-        if (surface.found[v] == 0) continue;
+        if (surface.lightable[v] == 0) continue;
         const LightAt<F> at = light_at<F>(light, load<F>(surface.point, i));
-        const Mask<F> lit = mask_from_bits<F>(surface.found[v]) & at.lit & (dot(load<F>(surface.normal, i), at.wi) > F(0));
+        const Mask<F> lit = mask_from_bits<F>(surface.lightable[v]) & at.lit & (dot(load<F>(surface.normal, i), at.wi) > F(0));
         l.lit[v] = bits(lit);
         any_lit |= l.lit[v];
         store<F>(l.wi, i, at.wi);
@@ -174,7 +174,7 @@ void add_light(Wavefront<F>& w, RayQueue<F>& queue, std::uint32_t light_index) {
         const Mask<F> shiny = lit & ((specular.x != F(0)) | (specular.y != F(0)) | (specular.z != F(0)));
         if (any(shiny)) {
             const Vec3<F> half = normalize(wi + load<F>(surface.view, i));
-            const F cos_half = max(dot(normal, half), F(0));
+            const F cos_half = min(max(dot(normal, half), F(0)), F(1)); // 1 + u to a large power is large
             reflected = reflected + specular * pow(cos_half, load<F>(surface.shininess + i));
         }
         const Vec3<F> share_of_light = color * load<F>(l.scale + i) * visible * reflected;

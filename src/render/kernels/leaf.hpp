@@ -102,11 +102,11 @@ LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, st
 template <Query query, FloatBatch F>
 bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, std::uint64_t child) {
     using S = Scalar<F>;
-    const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & 7u);
-    const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & 7u) + 1u;
+    const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
+    const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
     if (kind == PrimitiveKind::triangle) {
-        const std::uint64_t offset = ((child >> child_block_shift) & 0x1ffffffu) * 64u;
+        const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
         return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot,
                                     count);
     }

@@ -36,7 +36,7 @@ TileStats render_tile(const RenderJob& job, const Tile& tile, void* memory) {
     }
     if (job.anti_alias == AntiAliasKind::cross) {
         choose_hits(job, pixels);
-        trace_samples(scratch, {4, 0, job.offset, RayKind::offset}, pixels.sum);
+        trace_samples(scratch, {4, 0, job.offset, RayKind::offset, 1}, pixels.sum);
         write_chosen(job.film, tile, pixels, pixels.sum, 5);
     } else if (job.anti_alias == AntiAliasKind::edge) {
         choose_edges(job.scene, pixels, region, tile);

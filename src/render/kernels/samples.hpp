@@ -35,6 +35,7 @@ struct SamplePattern {
     std::uint32_t side; ///< of the grid; 0: the four arms of the cross
     float offset;
     RayKind kind;
+    std::uint32_t first_seed = 0; ///< of the soft shadows of sample 0; the centre ray has 0
 
     /// Of sample s, in pixels from the pixel's corner.
     template <class S>
@@ -126,7 +127,7 @@ void trace_samples(TileScratch<F>& scratch, const SamplePattern& pattern, Scalar
             pattern.at(sample, x, y);
             queue.rays.dir[0][n] = pixels.corner[0][at] + x;
             queue.rays.dir[1][n] = pixels.corner[1][at] + y;
-            if (queue.seed != nullptr) queue.seed[n] = pixel_seed(pixels.x[at], pixels.y[at], sample);
+            if (queue.seed != nullptr) queue.seed[n] = pixel_seed(pixels.x[at], pixels.y[at], sample + pattern.first_seed);
         }
         queue.count = n;
         camera_rays(job, queue);

@@ -26,7 +26,9 @@ template <FloatBatch F>
 void log_light(TraceLog& log, const std::int32_t* records, std::uint32_t light, std::uint32_t lit, const Vec3<F>& visible,
                const Vec3<F>& color) {
     for_each_bit(lit, [&](std::uint32_t lane) {
-        const std::int32_t place = log.light_count++;
+        const std::int32_t place = log.light_count;
+        if (place == std::numeric_limits<std::int32_t>::max()) return;
+        ++log.light_count;
         if (place >= log.light_capacity) return;
         TraceLight& entry = log.lights[place];
         entry.ray = records[lane];
@@ -42,7 +44,8 @@ void log_rays(const Wavefront<F>& w, RayQueue<F>& queue, RayKind kind, std::int3
     TraceLog& log = *w.job->log;
     for (std::uint32_t i = 0; i < queue.count; ++i) {
         const std::int32_t parent = queue.record[i];
-        queue.record[i] = log.ray_count++;
+        queue.record[i] = log.ray_count;
+        if (log.ray_count < std::numeric_limits<std::int32_t>::max()) ++log.ray_count;
         TraceRecord* const record = record_at(log, queue.record[i]);
         if (record == nullptr) continue;
         const std::uint32_t v = i / width<F>, lane = i % width<F>;

@@ -94,11 +94,11 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
 
 template <Query query, FloatBatch F>
 LANECAST_INLINE void hit_leaf(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, std::uint64_t child) {
-    const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & 7u);
-    const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & 7u) + 1u;
+    const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
+    const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
     if (kind == PrimitiveKind::triangle) {
-        const std::uint64_t offset = ((child >> child_block_shift) & 0x1ffffffu) * 64u;
+        const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
         hit_triangles<query>(scene, ray, axes, reinterpret_cast<const float*>(scene.arena + offset), first_slot, count);
     } else {
         for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) hit_quadric<query>(scene, ray, kind, slot);

@@ -71,7 +71,8 @@ struct SurfaceBatch {
     S* diffuse[3];
     S* specular[3];
     S* shininess;
-    std::uint32_t* found; ///< lanes
+    std::uint32_t* found;     ///< lanes
+    std::uint32_t* lightable; ///< of those, the ones whose material is diffuse or specular: no light reaches the others
     std::uint32_t* inside;
 
     void allocate(ScratchLayout& layout) {
@@ -85,6 +86,7 @@ struct SurfaceBatch {
         layout.take3(specular, n);
         shininess = layout.take<S>(n);
         found = layout.take<std::uint32_t>(batch_vectors<F>);
+        lightable = layout.take<std::uint32_t>(batch_vectors<F>);
         inside = layout.take<std::uint32_t>(batch_vectors<F>);
     }
 };

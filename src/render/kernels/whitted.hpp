@@ -10,6 +10,15 @@ namespace lanecast::inline LANECAST_ISA {
 
 namespace detail {
 
+template <FloatBatch F>
+LANECAST_INLINE F largest(const Vec3<F>& v) {
+    return max(max(v.x, v.y), v.z);
+}
+template <FloatBatch F>
+LANECAST_INLINE Mask<F> not_zero(const Vec3<F>& v) {
+    return (v.x != F(0)) | (v.y != F(0)) | (v.z != F(0));
+}
+
 /// Surfaces of the rays that hit something; the others take the background. The local light starts with the ambient term.
 template <FloatBatch F>
 void begin_shading(Wavefront<F>& w, RayQueue<F>& queue) {
@@ -23,6 +32,7 @@ void begin_shading(Wavefront<F>& w, RayQueue<F>& queue) {
         const Int<F> slot = load_int<F>(queue.rays.slot + i);
         const Mask<F> found = (slot > Int<F>(-1)) & first_lanes<F>(queue.count - i);
         surface.found[v] = bits(found);
+        surface.lightable[v] = 0;
         surface.inside[v] = 0;
         Vec3<F> color = background;
         if (any(found)) {
@@ -48,19 +58,12 @@ void begin_shading(Wavefront<F>& w, RayQueue<F>& queue) {
             store<F>(surface.diffuse, i, diffuse);
             store<F>(surface.specular, i, specular);
             store(surface.shininess + i, shininess);
+            // pick lists every light
+            surface.lightable[v] = w.job->log != nullptr ? bits(found) : bits(found & (not_zero(diffuse) | not_zero(specular)));
             color = select(found, ambient_light * ambient, background);
         }
         store<F>(queue.color, i, color);
     }
-}
-
-template <FloatBatch F>
-LANECAST_INLINE F largest(const Vec3<F>& v) {
-    return max(max(v.x, v.y), v.z);
-}
-template <FloatBatch F>
-LANECAST_INLINE Mask<F> not_zero(const Vec3<F>& v) {
-    return (v.x != F(0)) | (v.y != F(0)) | (v.z != F(0));
 }
 
 /// Where the children of vector v of a batch start from, and what they inherit.
