@@ -220,11 +220,12 @@ TEST_CASE("130 and 143: an interrupted frame leaves the old files and nothing el
     const TemporaryDirectory directory;
     put(directory.path / "a.png", "old png");
     const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "64"};
+    const bool terminal = have_terminals();
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = run(hours, {.directory = directory.path,
                                             .environment = {"TERM=xterm"},
-                                            .terminal = true,
-                                            .signal_at = " % [",
+                                            .terminal = terminal,
+                                            .signal_at = terminal ? " % [" : "rendering",
                                             .signal = signal});
         CHECK(outcome.code == 128 + signal);
         CHECK(contains(outcome.err, "lanecast: interrupted"));

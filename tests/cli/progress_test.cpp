@@ -21,6 +21,7 @@ Outcome until(const std::string& text, RunOptions options) {
 } // namespace
 
 TEST_CASE("a terminal gets a bar with rays per second and time left, which is erased") {
+    if (!have_terminals()) return;
     const Outcome outcome = until("left", {.environment = {"TERM=xterm", "NO_COLOR="}, .terminal = true});
     CHECK(outcome.code == 130);
     CHECK(contains(outcome.err, "\r  0 % [\x1b[32m"));
@@ -34,6 +35,7 @@ TEST_CASE("a terminal gets a bar with rays per second and time left, which is er
 }
 
 TEST_CASE("NO_COLOR: the bar without an escape sequence") {
+    if (!have_terminals()) return;
     const Outcome outcome = until("left", {.environment = {"TERM=xterm", "NO_COLOR=1"}, .terminal = true});
     CHECK(contains(outcome.err, "\r  0 % [...."));
     CHECK(!contains(outcome.err, "\x1b"));
@@ -42,6 +44,7 @@ TEST_CASE("NO_COLOR: the bar without an escape sequence") {
 TEST_CASE("a dumb terminal, like a file, gets plain lines now and then") {
     for (const bool terminal : {true, false}) {
         CAPTURE(terminal);
+        if (terminal && !have_terminals()) continue;
         const Outcome outcome = until("left", {.environment = {"TERM=dumb"}, .terminal = terminal});
         CHECK(outcome.code == 130);
         CHECK(!contains(outcome.err, "\x1b"));
@@ -55,6 +58,7 @@ TEST_CASE("a dumb terminal, like a file, gets plain lines now and then") {
 TEST_CASE("a short frame shows no progress, only what was written; --quiet nothing at all") {
     const TemporaryDirectory directory;
     for (const bool terminal : {true, false}) {
+        if (terminal && !have_terminals()) continue;
         const RunOptions options{.directory = directory.path, .environment = {"TERM=xterm"}, .terminal = terminal};
         Outcome outcome = run({"render", small, "-o", "a", "--size", "16x16"}, options);
         CHECK(outcome.code == 0);

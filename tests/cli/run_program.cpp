@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -105,6 +106,17 @@ Outcome run(const std::vector<std::string>& arguments, const RunOptions& options
     ::close(err.read_end);
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return outcome;
+}
+
+bool have_terminals() {
+    int terminal = -1, program = -1;
+    if (::openpty(&terminal, &program, nullptr, nullptr, nullptr) != 0) {
+        std::puts("skipped: no pseudo-terminals on this machine");
+        return false;
+    }
+    ::close(terminal);
+    ::close(program);
+    return true;
 }
 
 std::filesystem::path small_scene() { return std::filesystem::path(LANECAST_SOURCE_DIR) / "tests/cli/small.json"; }

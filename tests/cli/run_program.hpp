@@ -29,6 +29,9 @@ struct Outcome {
 
 [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunOptions& options = {});
 
+/// Whether this machine has pseudo-terminals (a bare chroot has none); says so by name when it has not.
+[[nodiscard]] bool have_terminals();
+
 /// The scene that has a little of everything.
 [[nodiscard]] std::filesystem::path small_scene();
 
