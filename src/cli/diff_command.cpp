@@ -2,6 +2,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/diff.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
 
@@ -44,7 +45,9 @@ void add_diff(CLI::App& app, Command& chosen) {
     command->final_callback([&chosen, options] {
         chosen = [options] {
             std::ostringstream out;
+            const InterruptScope interrupt; // the difference picture is written whole, or its temporary file removed
             const int code = run_diff(*options, out);
+            interrupt.check();
             print_result(out.str());
             return code;
         };

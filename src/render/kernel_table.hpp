@@ -102,8 +102,8 @@ struct RenderJob {
 /// Rays in structure-of-arrays form, each pointer to `count` elements of any alignment.
 struct RayStream {
     const float* org[3];
-    const float* dir[3]; ///< any length; t is in units of it
-    const float* tmin;   ///< a hit has t > tmin; may be null: 0
+    const float* dir[3]; ///< any length between 1e-18 and 1e18; t is in units of it
+    const float* tmin;   ///< a hit has t > tmin; 0 or more; may be null: 0
     const float* tmax;   ///< and t <= tmax; may be null: infinity
     float* t;            ///< out; closest_hit: of the hit, tmax where there is none. any_hit: unused
     std::int32_t* slot;  ///< out: the primitive's slot, -1 for a miss; any_hit: some primitive's
