@@ -6,7 +6,7 @@
 #include "scene/error.hpp"
 #include "scene/flatten.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/text_tools.hpp"
+#include "scene/scene_message.hpp"
 
 #include <chrono>
 
@@ -16,6 +16,14 @@ namespace lanecast {
 namespace {
 
 constexpr KeySpec threads_key{.name = "threads", .kind = ValueKind::whole, .range = {.low = 1, .high = 1024}};
+
+SceneArrays flatten_or_say_where(const FrameRequest& request, const RequestedScene& scene) {
+    try {
+        return flatten(scene.description, scene.settings, thread_count(request));
+    } catch (const Error& error) { // flatten knows the description, not the file
+        throw Error(error.code(), message_in_scene(request.scene, "error", error.what()));
+    }
+}
 
 } // namespace
 
@@ -56,11 +64,11 @@ RequestedScene load_requested(const FrameRequest& request) {
 }
 
 SceneArrays flatten_requested(const FrameRequest& request, RequestedScene& scene) {
-    SceneArrays arrays = flatten(scene.description, scene.settings, thread_count(request));
-    const std::string name = printable(request.scene, 4096);
-    if (request.strict && !arrays.warnings.empty()) throw Error(ExitCode::scene, name + ": error: " + arrays.warnings.front());
+    SceneArrays arrays = flatten_or_say_where(request, scene);
+    if (request.strict && !arrays.warnings.empty())
+        throw Error(ExitCode::scene, message_in_scene(request.scene, "error", arrays.warnings.front()));
     for (const std::string& text : arrays.warnings) {
-        scene.warnings.push_back(name + ": warning: " + text);
+        scene.warnings.push_back(message_in_scene(request.scene, "warning", text));
         if (!request.quiet) print_message(scene.warnings.back());
     }
     return arrays;

@@ -2,6 +2,7 @@
 
 #include "scene/bvh_refs.hpp"
 #include "scene/error.hpp"
+#include "scene/text_tools.hpp"
 
 #include <limits>
 
@@ -19,7 +20,7 @@ PrimitiveKind kind_of_shape(const Shape& shape, const glm::dmat3& linear) {
 
 std::string label(const FlatObject& object) {
     const std::string place = "/objects/" + std::to_string(object.index);
-    return object.object->name.empty() ? place : place + " (\"" + object.object->name + "\")";
+    return object.object->name.empty() ? place : place + " (\"" + printable(object.object->name) + "\")";
 }
 
 FlatObjects prepare_objects(const SceneDescription& scene) {

@@ -100,7 +100,7 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     const glm::dmat3 inverse = inverted(linear);
     const double conditioning = condition(linear, inverse);
     if (!is_finite(inverse) || !(conditioning < 0x1p40))
-        throw Error(ExitCode::scene, label(flat) + ": its transformations are singular");
+        throw Error(ExitCode::scene, label(flat) + ": is too flat to compute with");
     if (conditioning > high_condition) {
         char text[100];
         std::snprintf(text, sizeof text, ": is %.0e times longer than thick, askew to the axes; expect rough edges",
@@ -111,7 +111,7 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     for (int axis = 0; axis < 3; ++axis) record.translation[axis] = static_cast<float>(centre[axis]) + 0.0f;
     store(record.object_from_world, inverse);
     const glm::dmat3 stored = inverted(loaded(record.object_from_world));
-    if (!is_finite(stored)) throw Error(ExitCode::scene, label(flat) + ": its transformations are singular in single precision");
+    if (!is_finite(stored)) throw Error(ExitCode::scene, label(flat) + ": is too flat for single precision");
     const glm::dvec3 stored_extent = extent_of(flat.kind, stored);
     if (!(std::min({stored_extent.x, stored_extent.y, stored_extent.z}) >= smallest_size)) too_small(flat);
     warn_if_fine(flat, std::max({extent.x, extent.y, extent.z}), centre, quadrics);

@@ -76,7 +76,9 @@ Mesh load_mesh(SceneReader& reader, const Block& block, const Material& material
     const NodeId triangles = block.find("triangles");
     const NodeId file = block.find("file");
     if (triangles != no_node && file != no_node) fail(reader, file, "a mesh has `triangles` or a `file`, not both");
-    if (triangles == no_node && file == no_node) fail(reader, block.node(), "a mesh needs `triangles` or a `file`");
+    if (triangles == no_node && file == no_node)
+        fail(reader, block.node(),
+             "a mesh needs `triangles` or a `file`" + block.misspelling("triangles") + block.misspelling("file"));
     if (file == no_node && !block.has("material")) fail(reader, block.node(), "lacks the key `material`");
     const NodeId source = triangles != no_node ? triangles : file;
     Mesh out = triangles != no_node ? load_triangles(reader, triangles) : load_mesh_file(reader, file, material);

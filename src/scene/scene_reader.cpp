@@ -135,8 +135,6 @@ Block::Block(SceneReader& reader, NodeId node, const BlockSpec& spec)
     if (nodes(reader)[node].kind != JsonKind::object)
         fail(reader, node, std::string(node == 0 ? "the scene " : "") + "must be an object { ... }, got " + shown(reader, node));
     std::unordered_set<std::string_view> unknown;
-    NodeId misspelt = no_node;
-    std::string_view meant;
     for (NodeId key = node + 1; key < nodes(reader)[node].next; key = nodes(reader)[key + 1].next) {
         const std::string_view name = text_of(reader.document, key);
         if (is_comment_key(name)) continue;
@@ -152,22 +150,26 @@ Block::Block(SceneReader& reader, NodeId node, const BlockSpec& spec)
         // Not for the thousandth unknown key: the search costs a microsecond per known one.
         const std::string_view nearest =
             reader.remarks.size() < max_remarks ? nearest_word(name, key_names(spec)) : std::string_view();
-        if (misspelt == no_node && !nearest.empty()) misspelt = key, meant = nearest;
+        if (misspelt_ == no_node && !nearest.empty()) misspelt_ = key, meant_ = nearest;
         warn(reader, key,
              "unknown key of " + std::string(spec.title) +
                  (nearest.empty() ? "" : "; did you mean `" + std::string(nearest) + "`?"));
     }
-    check_missing(misspelt, meant);
+    check_missing();
 }
 
-void Block::check_missing(NodeId misspelt, std::string_view meant) const {
+void Block::check_missing() const {
     for (std::size_t i = 0; i < spec_.keys.size(); ++i) {
         const KeySpec& key = spec_.keys[i];
         if (!key.required || values_[i] != no_node) continue;
-        std::string message = std::string(node_ == 0 ? "the scene " : "") + "lacks the key `" + std::string(key.name) + "`";
-        if (meant == key.name) message += "; was `" + printable(text_of(reader_.document, misspelt), 40) + "` meant for it?";
-        fail(reader_, node_, message);
+        fail(reader_, node_,
+             std::string(node_ == 0 ? "the scene " : "") + "lacks the key `" + std::string(key.name) + "`" +
+                 misspelling(key.name));
     }
+}
+
+std::string Block::misspelling(std::string_view key) const {
+    return meant_ == key ? "; was `" + printable(text_of(reader_.document, misspelt_), 40) + "` meant for it?" : "";
 }
 
 NodeId Block::find(std::string_view key) const {

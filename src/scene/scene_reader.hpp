@@ -54,7 +54,8 @@ public:
     [[nodiscard]] NodeId node() const { return node_; }
     [[nodiscard]] NodeId find(std::string_view key) const; ///< its value, or no_node
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != no_node; }
-    [[nodiscard]] NodeId place_of(std::string_view key) const; ///< its value, or this block
+    [[nodiscard]] NodeId place_of(std::string_view key) const;         ///< its value, or this block
+    [[nodiscard]] std::string misspelling(std::string_view key) const; ///< "; was `raduis` meant for it?", or nothing
 
     // Sets `value` if the key is there. The key must be of that kind in the table.
     void read(std::string_view key, double& value) const;
@@ -72,12 +73,14 @@ public:
 
 private:
     [[nodiscard]] int choice(std::string_view key) const;
-    void check_missing(NodeId misspelt, std::string_view meant) const;
+    void check_missing() const;
 
     SceneReader& reader_;
     const BlockSpec& spec_;
     NodeId node_;
-    std::vector<NodeId> values_; ///< by index in the table
+    std::vector<NodeId> values_;  ///< by index in the table
+    NodeId misspelt_ = no_node;   ///< the first unknown key that resembles a known one,
+    std::string_view meant_ = {}; ///< and that one
 };
 
 /// The table among `specs` that the object's `type` names; fails where there is none.

@@ -44,4 +44,23 @@ std::string pointer_to(const JsonDocument& document, NodeId id) {
     return out;
 }
 
+NodeId node_at(const JsonDocument& document, std::string_view pointer) {
+    const std::vector<JsonNode>& nodes = document.nodes;
+    NodeId at = nodes.empty() ? no_node : 0;
+    while (at != no_node && !pointer.empty()) {
+        const bool object = nodes[at].kind == JsonKind::object;
+        if (!object && nodes[at].kind != JsonKind::list) return no_node;
+        const std::string_view step = pointer.substr(0, pointer.find('/', 1));
+        const NodeId end = nodes[at].next;
+        NodeId child = at + 1;
+        for (std::size_t index = 0; child < end; ++index) {
+            if (object ? pointer_step(text_of(document, child)) == step : "/" + std::to_string(index) == step) break;
+            child = object ? nodes[child + 1].next : nodes[child].next;
+        }
+        at = child >= end ? no_node : object ? child + 1 : child;
+        pointer.remove_prefix(step.size());
+    }
+    return at;
+}
+
 } // namespace lanecast

@@ -35,4 +35,7 @@ struct SyntaxFault {
 /// JSON pointer of a node: /objects/3/radius; for a key, that of its value.
 [[nodiscard]] std::string pointer_to(const JsonDocument& document, NodeId id);
 
+/// The value at a pointer; no_node where there is none.
+[[nodiscard]] NodeId node_at(const JsonDocument& document, std::string_view pointer);
+
 } // namespace lanecast

@@ -69,7 +69,8 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
     if (word.size() > 40) return best;
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string_view candidate : known) {
-        const std::size_t distance = edit_distance(word, candidate);
+        const bool shortened = word.size() >= 4 && candidate.starts_with(word); // "transform" for "transformations"
+        const std::size_t distance = shortened ? 1 : edit_distance(word, candidate);
         if (distance < best_distance) {
             best = candidate;
             best_distance = distance;

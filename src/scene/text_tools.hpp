@@ -14,8 +14,8 @@ namespace lanecast {
 /// Safe to print: control characters and malformed UTF-8 become '?', and text beyond `limit` bytes becomes "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 60);
 
-/// The word of `known` nearest to `word` by edits (a swap of neighbours counts one), if it is near enough to be meant; else
-/// empty.
+/// The word of `known` nearest to `word` by edits (a swap of neighbours counts one, and so does a word cut short), if it is
+/// near enough to be meant; else empty.
 [[nodiscard]] std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
 /// The shortest decimal text that reads back as `value`; whole numbers without an exponent.

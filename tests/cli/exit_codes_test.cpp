@@ -130,13 +130,25 @@ TEST_CASE("3: the scene; the message has file, line, column, place, the source l
         CHECK(lines_of(outcome.err) == 3);
     }
     CHECK(run({"pick", "bad.json", "0", "0"}, {.directory = directory.path}).code == 3);
+    // What only the flattened scene shows has its place, too.
+    put(directory.path / "far.json",
+        "{ \"camera\": {}, \"lights\": [],\n  \"objects\": [ { \"type\": \"sphere\", \"radius\": 1e-25, "
+        "\"position\": [0, 0, -1e-24], \"material\": {} },\n"
+        "    { \"type\": \"sphere\", \"radius\": 1, \"material\": {} } ] }\n");
+    for (const char* command : {"render", "check", "info"}) {
+        const Outcome outcome = run({command, "far.json"}, {.directory = directory.path});
+        CHECK(outcome.code == 3);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.starts_with("far.json:2:16: error: /objects/0: is smaller than 2^-60 of the scene's geometry\n"));
+        CHECK(lines_of(outcome.err) == 3);
+    }
     const Outcome missing = run({"check", "missing.json"}, {.directory = directory.path});
     CHECK(missing.code == 3);
     CHECK(contains(missing.err, "missing.json: error: "));
     // Warnings are errors under --strict; this one is of the flattened scene.
     CHECK(run({"check", small}).code == 0);
     CHECK(run({"check", small, "--strict"}).code == 3);
-    CHECK(names_in(directory.path) == std::vector<std::string>{"bad.json"});
+    CHECK(names_in(directory.path) == std::vector<std::string>{"bad.json", "far.json"});
 }
 
 TEST_CASE("4: a mesh or a picture that cannot be read") {

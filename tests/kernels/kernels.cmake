@@ -3,6 +3,7 @@ lanecast_isa_test(test_simd LABELS unit determinism SOURCES kernels/simd_test.cp
 lanecast_isa_test(test_pow LABELS unit determinism SOURCES kernels/pow_test.cpp)
 lanecast_isa_test(test_triangle LABELS unit SOURCES kernels/triangle_test.cpp)
 lanecast_isa_test(test_quadric LABELS unit SOURCES kernels/quadric_test.cpp)
+lanecast_isa_test(test_optics LABELS unit SOURCES kernels/optics_test.cpp)
 lanecast_isa_test(test_spawn LABELS unit SOURCES kernels/spawn_test.cpp)
 foreach(isa IN LISTS lanecast_isas) # scenes come from `flatten`
   target_link_libraries(test_spawn_${isa} PRIVATE lanecast::lanecast)

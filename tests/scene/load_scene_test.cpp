@@ -55,6 +55,7 @@ TEST_CASE("unknown keys are warnings with the nearest known key") {
     CHECK(warned("shinines") == place + "shinines: unknown key of a material; did you mean `shininess`?");
     CHECK(warned("Diffuse") == place + "Diffuse: unknown key of a material; did you mean `diffuse`?");
     CHECK(warned("reflecitve") == place + "reflecitve: unknown key of a material; did you mean `reflective`?");
+    CHECK(warned("refract") == place + "refract: unknown key of a material; did you mean `refraction`?"); // cut short
     CHECK(warned("texture_map") == place + "texture_map: unknown key of a material");
     CHECK(warned("a/b~c") == place + "a~1b~0c: unknown key of a material");
     CHECK(warned("") == place + ": unknown key of a material");

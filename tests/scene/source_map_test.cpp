@@ -54,7 +54,10 @@ void check_places(const std::string& text, const Json& json) {
     for (NodeId id = 0; id < document.nodes.size(); ++id) ids.push_back(id);
     const std::vector<SourceSpan> spans = locate_nodes(text, ids);
     for (const NodeId id : ids) {
-        const Json& value = json.at(Json::json_pointer(pointer_to(document, id)));
+        const std::string pointer = pointer_to(document, id);
+        const Json& value = json.at(Json::json_pointer(pointer));
+        REQUIRE(node_at(document, pointer) == (document.nodes[id].kind == JsonKind::key ? id + 1 : id)); // a key: its value
+        REQUIRE(node_at(document, pointer + "/no such") == no_node);
         const std::string shown = text.substr(spans[id].begin, spans[id].end - spans[id].begin);
         switch (document.nodes[id].kind) {
         case JsonKind::list:

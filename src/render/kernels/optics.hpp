@@ -24,12 +24,14 @@ LANECAST_INLINE Transmission<F> transmit(const Vec3<F>& d, const Vec3<F>& n, F i
     const Mask<F> bends = index > F(0);
     const F n1 = select(bends & inside, index, F(1));
     const F n2 = select(bends & !inside, index, F(1));
-    const F eta = n1 / n2;
     const F cos_in = -dot(d, n);
-    const F k = F(1) - eta * eta * (F(1) - cos_in * cos_in);
+    // The sine from the part of d along the surface: 1 - cos^2 is rounding where d meets the surface head on, negative half of
+    // the time, and a high index multiplies it.
+    const Vec3<F> bent_tangent = (d + n * cos_in) * (n1 / n2);
+    const F k = F(1) - dot(bent_tangent, bent_tangent);
     const Mask<F> total = bends & (k < F(0));
     const F cos_out = sqrt(max(k, F(0)));
-    const Vec3<F> bent = normalize(d * eta + n * (eta * cos_in - cos_out));
+    const Vec3<F> bent = normalize(bent_tangent - n * cos_out);
     const Vec3<F> dir = select(total, mirror(d, n), select(bends, bent, d));
 
     const F ratio = (n1 - n2) / (n1 + n2);
