@@ -92,6 +92,15 @@ concept FloatBatch = requires {
     typename BatchTraits<F>::Scalar;
 };
 
+/// The batch this translation unit is compiled for.
+#if LANECAST_REFERENCE
+using NativeFloat = double;
+#elif LANECAST_VECTOR
+using NativeFloat = VectorFloat;
+#else
+using NativeFloat = float;
+#endif
+
 /// float for every float batch, double for the reference.
 template <FloatBatch F>
 using Scalar = typename BatchTraits<F>::Scalar;

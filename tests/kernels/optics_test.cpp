@@ -12,13 +12,7 @@ using namespace lanecast::test;
 
 namespace {
 
-#if LANECAST_REFERENCE
-using F = double;
-#elif LANECAST_VECTOR
-using F = VectorFloat;
-#else
-using F = float;
-#endif
+using F = NativeFloat;
 using S = Scalar<F>;
 constexpr int W = width<F>;
 constexpr double u = sizeof(S) == 4 ? 0x1p-24 : 0x1p-53;

@@ -15,13 +15,7 @@ using namespace lanecast::test;
 
 namespace {
 
-#if LANECAST_REFERENCE
-using F = double;
-#elif LANECAST_VECTOR
-using F = VectorFloat;
-#else
-using F = float;
-#endif
+using F = NativeFloat;
 using S = Scalar<F>;
 constexpr int W = width<F>;
 using Real = long double;

@@ -12,13 +12,7 @@ using lanecast::test::Lottery;
 
 namespace {
 
-#if LANECAST_REFERENCE
-using F = double;
-#elif LANECAST_VECTOR
-using F = VectorFloat;
-#else
-using F = float;
-#endif
+using F = NativeFloat;
 using S = Scalar<F>;
 constexpr int W = width<F>;
 

@@ -19,13 +19,7 @@ using namespace lanecast::test;
 
 namespace {
 
-#if LANECAST_REFERENCE
-using F = double;
-#elif LANECAST_VECTOR
-using F = VectorFloat;
-#else
-using F = float;
-#endif
+using F = NativeFloat;
 using S = Scalar<F>;
 constexpr std::uint32_t W = width<F>;
 constexpr std::uint32_t batch = 512;

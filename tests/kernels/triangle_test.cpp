@@ -14,13 +14,7 @@ using namespace lanecast::test;
 
 namespace {
 
-#if LANECAST_REFERENCE
-using F = double;
-#elif LANECAST_VECTOR
-using F = VectorFloat;
-#else
-using F = float;
-#endif
+using F = NativeFloat;
 using S = Scalar<F>;
 constexpr int W = width<F>;
 constexpr double ulp_of_s = sizeof(S) == 4 ? 1 : 0x1p-29;

@@ -7,13 +7,7 @@ namespace lanecast::inline LANECAST_ISA {
 
 namespace {
 
-#if LANECAST_REFERENCE
-using Float = double;
-#elif LANECAST_VECTOR
-using Float = VectorFloat;
-#else
-using Float = float;
-#endif
+using Float = NativeFloat;
 
 std::uint64_t scratch_bytes(const RenderJob& job) noexcept {
     TileScratch<Float> scratch;
