@@ -231,7 +231,7 @@ TEST_CASE("7: an instruction set that cannot be had") {
 TEST_CASE("130 and 143: an interrupted frame leaves the old files and nothing else") {
     const TemporaryDirectory directory;
     put(directory.path / "a.png", "old png");
-    const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "64"};
+    const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "16"};
     const bool terminal = have_terminals();
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = run(hours, {.directory = directory.path,
