@@ -2,15 +2,37 @@
 
 #include "render/output_file.hpp"
 #include "render/png_io.hpp"
+#include "scene/error.hpp"
 #include "scene/parallel.hpp"
+#include "scene/text_tools.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 namespace lanecast {
 
+namespace {
+
+/// Endings by which a user asks for a format. Others are part of the name: "v1.5".
+constexpr std::string_view not_written[] = {".jpg", ".jpeg", ".tif", ".tiff", ".bmp",  ".gif",  ".hdr", ".pic", ".tga",
+                                            ".ppm", ".pgm",  ".pfm", ".pnm",  ".webp", ".avif", ".jxl", ".dds"};
+
+} // namespace
+
 PictureNames picture_names(const std::string& output, const std::filesystem::path& scene) {
-    if (output.ends_with(".exr")) return {output, {}};
-    if (output.ends_with(".png")) return {{}, output};
+    const std::string ending = lower_case(std::filesystem::path(output).extension().string());
+    if (ending == ".exr") return {output, {}};
+    if (ending == ".png") return {{}, output};
+    if (std::ranges::find(not_written, ending) != std::end(not_written))
+        throw Error(ExitCode::usage,
+                    "--output: " + printable_path(output) + ": pictures are written as .exr and .png, not as " + ending);
+    std::error_code ignored;
+    if (!output.ends_with('/') && std::filesystem::is_directory(output, ignored))
+        throw Error(ExitCode::output,
+                    printable_path(output) + ": is a directory; " + printable_path(output + "/") + " puts the pictures into it");
     const bool directory = output.empty() || output.ends_with('/');
     const std::string name = directory ? output + scene.stem().string() : output;
     return {name + ".exr", name + ".png"};
