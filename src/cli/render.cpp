@@ -124,7 +124,7 @@ void warn_of_values(const RenderRequest& request, Film& film) {
     const double half_field = scene.description.camera.field * std::numbers::pi / 360;
     options.exr.screen_window_width = static_cast<float>(2 * std::tan(half_field) * report.options.width / report.options.height);
     options.exr.float_pixels = request.float_pixels;
-    options.exr.threads = options.threads = thread_count(request.frame);
+    options.threads = thread_count(request.frame);
     options.exr.attributes = exr_attributes(report, !request.no_volatile_metadata);
     options.view = request.view;
     options.exposure = request.exposure;

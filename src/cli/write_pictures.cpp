@@ -48,14 +48,20 @@ void write_pictures(const PictureNames& names, const Film& film, const PictureOp
     std::optional<OutputFile> exr, png;
     if (!names.exr.empty()) exr.emplace(names.exr);
     if (!names.png.empty()) png.emplace(names.png);
-    // libpng is one thread's work, and OpenEXR has a pool of its own: the two files are encoded at the same time.
+    // Below this many pixels for each, starting threads takes longer than they save.
+    constexpr int worth_a_thread = 1 << 14;
+    const int encoders = std::clamp(film.width * film.height / worth_a_thread, 1, options.threads);
+    ExrOptions exr_options = options.exr;
+    exr_options.threads = encoders;
+    // libpng is one thread's work, and OpenEXR has a pool of its own: the two files are encoded, and synchronised, at the same
+    // time.
     parallel_for(options.threads, 2, [&](std::size_t i) {
         if (i == 0 && exr) {
-            write_exr(*exr, film, options.exr);
+            write_exr(*exr, film, exr_options);
             exr->complete();
         }
         if (i == 1 && png) {
-            write_png(*png, tonemap(film, options.view, options.exposure, options.threads));
+            write_png(*png, tonemap(film, options.view, options.exposure, encoders));
             png->complete();
         }
     });

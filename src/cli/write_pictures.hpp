@@ -25,7 +25,7 @@ struct PictureNames {
 void probe_outputs(const PictureNames& names);
 
 struct PictureOptions {
-    ExrOptions exr;
+    ExrOptions exr; ///< its threads are set by write_pictures
     View view = default_view;
     double exposure = 0;
     int threads = 1;
