@@ -23,7 +23,8 @@ constexpr std::string_view not_written[] = {".jpg", ".jpeg", ".tif", ".tiff", ".
 } // namespace
 
 PictureNames picture_names(const std::string& output, const std::filesystem::path& scene) {
-    const std::string ending = lower_case(std::filesystem::path(output).extension().string());
+    const std::size_t dot = output.find_last_of("./"); // `.exr` is a name that ends in .exr here
+    const std::string ending = dot == std::string::npos ? "" : lower_case(output.substr(dot));
     if (ending == ".exr") return {output, {}};
     if (ending == ".png") return {{}, output};
     if (std::ranges::find(not_written, ending) != std::end(not_written))

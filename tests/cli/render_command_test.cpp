@@ -55,8 +55,10 @@ TEST_CASE("names: the scene's by default, both files for a bare name, one for a 
     std::filesystem::create_directory(directory.path / "sub");
     REQUIRE(run({"render", small, "-o", "sub/v1.5"}, there).code == 0);
     REQUIRE(run({"render", small, "-o", "sub/"}, there).code == 0);
+    REQUIRE(run({"render", small, "-o", "sub/.png"}, there).code == 0);
     CHECK(sorted_names(directory.path) == std::vector<std::string>{"one.exr", "small.exr", "small.png", "sub", "two.PNG"});
-    CHECK(sorted_names(directory.path / "sub") == std::vector<std::string>{"small.exr", "small.png", "v1.5.exr", "v1.5.png"});
+    CHECK(sorted_names(directory.path / "sub") ==
+          std::vector<std::string>{".png", "small.exr", "small.png", "v1.5.exr", "v1.5.png"});
     CHECK(picture_kind(directory.path / "one.exr") == PictureKind::exr);
     CHECK(picture_kind(directory.path / "two.PNG") == PictureKind::png);
     const Film film = read_picture(directory.path / "small.exr");
