@@ -22,16 +22,17 @@ struct Occupancy {
 template <FloatBatch F>
 LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhNode& node, Scalar<F>* near) {
     using S = Scalar<F>;
+    using E = Eight<F>;
     std::uint32_t entered = 0;
-    for (int c = 0; c < 8; c += width<F>) {
-        F enter(0), leave{S(packet.t_max)};
+    for (int c = 0; c < 8; c += width<E>) {
+        E enter(S(0)), leave(packet.t_max);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
-            const F near_plane = load_eight<F>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
-            const F far_plane = load_eight<F>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
-            const F x = near_plane - F(packet.interval_near[axis]);
-            const F y = far_plane - F(packet.interval_far[axis]);
-            const F r0(packet.rcp_min[axis]), r1(packet.rcp_max[axis]);
+            const E near_plane = load_eight<E>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
+            const E far_plane = load_eight<E>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
+            const E x = near_plane - E(packet.interval_near[axis]);
+            const E y = far_plane - E(packet.interval_far[axis]);
+            const E r0(packet.rcp_min[axis]), r1(packet.rcp_max[axis]);
             enter = max(min(x * r0, x * r1), enter);
             leave = min(max(y * r0, y * r1), leave);
         }

@@ -6,7 +6,7 @@
 namespace lanecast::inline LANECAST_ISA {
 
 /// A subtree that this many rays or fewer enter is walked by each of them alone. Measured: docs/performance.md.
-inline constexpr std::uint32_t few_rays = 4;
+inline constexpr std::uint32_t few_rays = 8;
 
 /// The rays of a packet that enter a subtree.
 struct Entering {
@@ -41,15 +41,6 @@ std::uint32_t traverse_alone(const SceneView& scene, Packet<F>& packet, const En
         packet.slot[i] = ray.slot;
     }
     return changed;
-}
-
-/// Brings what a child word points at towards the cache: a node and the blocks that follow it, or a leaf's block.
-LANECAST_INLINE void prefetch(const SceneView& scene, std::uint64_t child) {
-    const bool leaf = (child & child_is_leaf) != 0;
-    const std::uint64_t offset = leaf ? (child >> child_block_shift) & child_block_mask : child;
-    const unsigned char* const lines = scene.arena + offset * 64u;
-    const int count = leaf ? 5 : 8;
-    for (int line = 0; line < count; ++line) __builtin_prefetch(lines + line * 64);
 }
 
 } // namespace lanecast::inline LANECAST_ISA
