@@ -9,4 +9,7 @@ if(LANECAST_PYTHON)
   lanecast_test(test_spd_counts LABELS golden SOURCES golden/spd_counts_test.cpp golden/spd_rays.cpp)
   target_compile_definitions(test_spd_counts PRIVATE LANECAST_SPD_DIR="${CMAKE_BINARY_DIR}/spd")
   set_tests_properties(test_spd_counts PROPERTIES FIXTURES_REQUIRED spd)
+  add_executable(spd_times EXCLUDE_FROM_ALL golden/spd_times.cpp) # what docs/spd.md publishes
+  target_link_libraries(spd_times PRIVATE lanecast::lanecast lanecast_flags)
+  target_compile_definitions(spd_times PRIVATE LANECAST_SPD_DIR="${CMAKE_BINARY_DIR}/spd")
 endif()

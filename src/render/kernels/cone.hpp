@@ -40,31 +40,19 @@ LANECAST_INLINE CappedCrossing<F> cross_cone(const Vec3<F>& o, const Vec3<F>& d,
     const F q = -(b + copysign(root, b));
     const F sb = select(q == zero, zero, c / q);
     const F sa = select(a == zero, copysign(infinity, b), q / a); // a ray along the side meets it once
-    const Mask<F> in_nappe = meets & ((!shallow) | (l.z + e.z * sb > zero));
     const Mask<F> widens = e.z > zero; // a steep ray that goes where the cone widens enters at the later end and never leaves
     const Mask<F> enters = (!parallel) & (shallow | widens), leaves = (!parallel) & (shallow | !widens);
     const F lo = min(sa, sb) * inv_length, hi = max(sa, sb) * inv_length;
     const F body0 = select(enters, select(shallow, lo, hi), -infinity);
     const F body1 = select(leaves, select(shallow, hi, lo), infinity);
-    const CappedCrossing<F> local = clip_to_caps(closest, d, body0, body1, in_nappe | runs_within);
+    const CappedCrossing<F> local = clip_to_caps(closest, d, body0, body1, meets | runs_within);
     if (none(local.ends.hit)) return local;
 
-    F ta = tm + sa * inv_length, tb = tm + sb * inv_length;
-    // Close to the surface, far from the apex, the sum cancels; the quadratic from the ray's own origin does not.
-    const Mask<F> a_nearer = abs(ta) < abs(tb);
-    const Mask<F> cancels = local.ends.hit & (min(abs(ta), abs(tb)) <= F(S(0.5)) * abs(tm));
-    if (any(cancels)) {
-        const F b_org = f.x * e.x + f.y * e.y - f.z * e.z;
-        const F q_org = -(b_org + copysign(root, b_org));
-        const F near = sum_of_squares_less(f.x, f.y, zero, f.z) / q_org * inv_length;
-        const Mask<F> sound = cancels & !(q_org == zero);
-        ta = select(sound & a_nearer, near, ta);
-        tb = select(sound & !a_nearer, near, tb);
-    }
-    const F early = select(sa < sb, ta, tb), late = select(sa < sb, tb, ta);
+    // Told as t, where a sum that cancels may not lead past the caps.
     const F cap_a = (F(S(-0.5)) - o.y) / d.y, cap_b = (F(S(0.5)) - o.y) / d.y;
-    const F t0 = select(local.cap0, min(cap_a, cap_b), select(enters, select(shallow, early, late), -infinity));
-    const F t1 = select(local.cap1, max(cap_a, cap_b), select(leaves, select(shallow, late, early), infinity));
+    const Mask<F> level = d.y == zero;
+    const F cap0 = select(level, -infinity, min(cap_a, cap_b)), cap1 = select(level, infinity, max(cap_a, cap_b));
+    const F t0 = max(cap0, tm + body0), t1 = min(cap1, tm + body1);
     return {{t0, t1, local.ends.hit}, local.cap0, local.cap1};
 }
 
