@@ -60,7 +60,7 @@ TEST_CASE("info: what is modelled follows the switches") {
     CHECK(contains(info({"--no-shadows", "--no-planes", "--no-reflections", "--no-transmission", "--no-specular"}),
                    "models           triangles, spheres, ellipsoids, cylinders, lights\n"));
     CHECK(contains(info({"--schlick", "--soft-shadows", "4", "--transmissive-shadows", "--aa", "edge"}),
-                   "leaves out       nothing\n"));
+                   "leaves out       cones, open cones\n"));
 }
 
 TEST_CASE("info --json") {
