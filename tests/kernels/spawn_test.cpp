@@ -2,8 +2,8 @@
 // (numerics N8, N9).
 
 #include "kernels/kernel_support.hpp"
+#include "kernels/traced_batch.hpp"
 #include "render/kernels/surface.hpp"
-#include "render/kernels/trace.hpp"
 #include "scene/flatten.hpp"
 #include "scene/transform.hpp"
 
@@ -22,32 +22,7 @@ namespace {
 using F = NativeFloat;
 using S = Scalar<F>;
 constexpr std::uint32_t W = width<F>;
-constexpr std::uint32_t batch = 512;
-
-/// A RayBatch with memory.
-struct Batch {
-    std::vector<S> memory[8];
-    std::vector<std::int32_t> source, slot;
-    RayBatch<F> rays{};
-    Batch() : source(batch + W, no_source), slot(batch + W) {
-        for (auto& m : memory) m.resize(batch + W);
-        for (int axis = 0; axis < 3; ++axis) rays.org[axis] = memory[axis].data(), rays.dir[axis] = memory[3 + axis].data();
-        rays.t = memory[6].data();
-        rays.source = source.data(), rays.slot = slot.data();
-        rays.tmin = 0, rays.tmax = no_limit<S>;
-    }
-    void set(std::uint32_t i, const glm::dvec3& o, const glm::dvec3& d) {
-        for (int axis = 0; axis < 3; ++axis) {
-            rays.org[axis][i] = static_cast<S>(static_cast<float>(o[axis]));
-            rays.dir[axis][i] = static_cast<S>(static_cast<float>(d[axis]));
-        }
-    }
-    template <Query query>
-    void trace_in(const SceneView& scene, TraceScratch<F>& scratch) {
-        RayKindStats stats{};
-        trace<query>(scene, rays, batch, false, scratch, stats);
-    }
-};
+using Batch = TracedBatch<F>;
 
 glm::dvec3 direction(Lottery& random) {
     const auto d = random.direction();
