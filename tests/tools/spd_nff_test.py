@@ -16,6 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "spd"))
+sys.dont_write_bytecode = True
 from spd_scene import Cone, Polygon, Sphere, cross, dot, sub  # noqa: E402
 
 FILES = {"balls": "balls", "gears": "gears", "jacks": "jacks_s4", "lattice": "lattice", "mount": "mount", "rings": "rings",

@@ -89,8 +89,9 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
             ends = crossing.ends;
             open0 = kind == PrimitiveKind::open_cone && crossing.cap0;
             open1 = kind == PrimitiveKind::open_cone && crossing.cap1;
-        } else
+        } else {
             ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
+        }
     }
     const auto this_slot = static_cast<std::int32_t>(slot);
     if (!ends.hit || ray.source == source_outward(this_slot)) return;
