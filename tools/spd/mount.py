@@ -55,9 +55,11 @@ def heights(size):
 
 
 def mixed(x, y):
-    """A hash for sizes above 7, where the classic one has no bits left: Teschner et al. 2003, folded."""
-    h = x * 73856093 ^ y * 19349663
-    return h ^ h >> 16
+    """A hash for sizes above 7, where the classic one has no bits left: products with odd constants, folded three times."""
+    h = (x * 0x9E3779B1 ^ y * 0x85EBCA77) & 0xffffffff
+    for shift, factor in ((15, 0x2C1B3C6D), (12, 0x297A2D39), (15, 1)):
+        h = (h ^ h >> shift) * factor & 0xffffffff
+    return h
 
 
 def build(size):
