@@ -6,6 +6,7 @@
 #include "scene/flatten_meshes.hpp"
 #include "scene/flatten_objects.hpp"
 #include "scene/flatten_quadrics.hpp"
+#include "scene/flatten_warnings.hpp"
 #include "scene/normalise.hpp"
 #include "scene/parallel.hpp"
 #include "scene/scratch.hpp"
@@ -30,11 +31,12 @@ struct Bounded {
     std::size_t count = 0;
 };
 
-DoubleBox bounds_of(const FlatObjects& objects, int threads) {
-    DoubleBox bounds = mesh_bounds(objects, threads);
+/// Of each object, in world units; empty for planes.
+std::vector<DoubleBox> bounds_of(const FlatObjects& objects, int threads) {
+    std::vector<DoubleBox> boxes = mesh_bounds(objects, threads);
     for (const FlatObject& flat : objects.objects)
-        if (flat.kind != PrimitiveKind::triangle && flat.kind != PrimitiveKind::plane) include(bounds, quadric_bounds(flat));
-    return bounds;
+        if (flat.kind != PrimitiveKind::triangle && flat.kind != PrimitiveKind::plane) boxes[flat.index] = quadric_bounds(flat);
+    return boxes;
 }
 
 Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
@@ -51,10 +53,8 @@ Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
     BuildRef* const begin = bounded.refs.get();
     BuildRef* end = begin + objects.refs;
     if (arrays.degenerate_triangles > 0) {
+        arrays.warnings.push_back(dropped_triangles_warning(objects, begin, arrays.degenerate_triangles));
         end = std::remove_if(begin, end, [](const BuildRef& ref) { return ref.source == dropped_source; });
-        arrays.warnings.push_back(std::to_string(arrays.degenerate_triangles) + (arrays.degenerate_triangles == 1
-                                                                                     ? " degenerate triangle was dropped"
-                                                                                     : " degenerate triangles were dropped"));
     }
     bounded.count = static_cast<std::size_t>(end - begin);
     arrays.warnings.insert(arrays.warnings.end(), bounded.quadrics.warnings.begin(), bounded.quadrics.warnings.end());
@@ -138,10 +138,13 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     const FlatObjects objects = prepare_objects(scene);
     constexpr std::size_t worth_a_thread = 4096; // primitives: below, starting a thread takes longer than the work
     if (objects.refs < worth_a_thread) threads = 1;
-    const DoubleBox bounds = bounds_of(objects, threads);
+    const std::vector<DoubleBox> boxes = bounds_of(objects, threads);
+    DoubleBox bounds;
+    for (const DoubleBox& box : boxes) include(bounds, box);
     arrays.bounds_min = bounds.lo;
     arrays.bounds_max = bounds.hi;
     arrays.normalisation = find_normalisation(bounds, scene, settings.planes);
+    if (const auto warning = fine_object_warning(objects, boxes, arrays.normalisation)) arrays.warnings.push_back(*warning);
     const FlatMaterials materials = flatten_materials(objects, settings);
     arrays.materials = materials.records;
     arrays.features |= material_features(arrays.materials);

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <vector>
 
 namespace lanecast {
 namespace {
@@ -62,7 +61,7 @@ std::array<std::uint32_t, 3> wound(const Mesh& mesh, bool mirrored, std::uint32_
 
 } // namespace
 
-DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
+std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads) {
     // Which vertices are used: several threads may set the same byte.
     const auto is_used = std::make_unique<unsigned char[]>(objects.vertices);
     const std::vector<Piece> triangles = cut_triangles(objects);
@@ -82,8 +81,8 @@ DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
         });
         boxes[p] = box;
     });
-    DoubleBox bounds;
-    for (const DoubleBox& box : boxes) include(bounds, box);
+    std::vector<DoubleBox> bounds(objects.objects.size());
+    for (std::size_t p = 0; p < boxes.size(); ++p) include(bounds[vertices[p].object->index], boxes[p]);
     return bounds;
 }
 

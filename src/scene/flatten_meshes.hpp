@@ -8,11 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace lanecast {
 
-/// Bounds of the vertices that triangles use, of all meshes, in world units.
-[[nodiscard]] DoubleBox mesh_bounds(const FlatObjects& objects, int threads);
+/// For each object of the file the bounds of the vertices that its triangles use, in world units; empty where it is no mesh.
+[[nodiscard]] std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads);
 
 /// Normalised float vertices of all meshes, at FlatObject::first_vertex.
 struct BakedVertices {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double smallest_size = 0x1p-60; ///< of a body; its square is still a normal float
 constexpr double high_condition = 1e4;    ///< 24 bits of mantissa leave about three digits
-constexpr double finest_ratio = 0x1p-22;  ///< of a radius to its centre's coordinates: a few ulp
 
 struct Body {
     glm::dmat3 linear; ///< from the unit sphere, cylinder or cone, world units
@@ -70,17 +69,10 @@ BuildRef ref_of(const FlatObject& flat, const Box& box, std::size_t item) {
     throw Error(ExitCode::scene, label(flat) + ": is smaller than 2^-60 of the scene's geometry");
 }
 
-void warn_if_fine(const FlatObject& flat, double size, const glm::dvec3& centre, Quadrics& quadrics) {
-    const double coordinate = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
-    if (size < finest_ratio * coordinate)
-        quadrics.warnings.push_back(label(flat) + ": is finer than the grid of single precision at its place");
-}
-
 BuildRef add_sphere(const FlatObject& flat, const glm::dvec3& centre, const Normalisation& normalisation, Quadrics& quadrics) {
     const double radius =
         std::get<Sphere>(flat.object->shape).radius * uniform_scale(flat.world_from_object.linear) * normalisation.scale;
     if (!(radius >= smallest_size)) too_small(flat);
-    warn_if_fine(flat, radius, centre, quadrics);
     SphereRecord record{};
     for (int axis = 0; axis < 3; ++axis) record.centre[axis] = static_cast<float>(centre[axis]) + 0.0f;
     record.radius = static_cast<float>(radius);
@@ -129,7 +121,6 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     const DoubleBox stored_box = box_of(flat.kind, stored, body.taper);
     const glm::dvec3 stored_extent = extent_of(stored_box);
     if (!(std::min({stored_extent.x, stored_extent.y, stored_extent.z}) >= smallest_size)) too_small(flat);
-    warn_if_fine(flat, std::max({extent.x, extent.y, extent.z}), centre, quadrics);
     AffineShadingRecord shading{};
     store(shading.world_from_object, stored);
     quadrics.affines.push_back(record);

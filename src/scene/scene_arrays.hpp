@@ -55,7 +55,7 @@ struct SceneArrays {
     glm::dvec3 bounds_min{0}, bounds_max{0}; ///< of the bounded geometry, in world units; min > max when there is none
     std::uint32_t degenerate_triangles = 0;  ///< dropped
     BvhQuality quality;
-    std::vector<std::string> warnings; ///< ill-conditioned transforms, geometry finer than the float grid
+    std::vector<std::string> warnings; ///< dropped triangles, ill-conditioned transforms, objects too small for the float grid
     double bake_seconds = 0;           ///< transforms, records
     double build_seconds = 0;          ///< the tree
 };

@@ -103,6 +103,8 @@ void warn(SceneReader& reader, NodeId node, const std::string& message) {
         ++reader.remarks_dropped;
 }
 
+std::string more_warnings(std::size_t count) { return std::to_string(count) + (count == 1 ? " more warning" : " more warnings"); }
+
 std::string shown(const SceneReader& reader, NodeId node) {
     const JsonNode& value = nodes(reader)[node];
     switch (value.kind) {

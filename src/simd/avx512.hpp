@@ -11,9 +11,10 @@ struct VectorMask {
     VectorMask() = default;
     LANECAST_INLINE VectorMask(__mmask16 register_) : r(register_) {}
     LANECAST_INLINE explicit VectorMask(bool b) : r(b ? __mmask16(0xffff) : __mmask16(0)) {}
-    LANECAST_INLINE friend VectorMask operator&(VectorMask a, VectorMask b) { return __mmask16(a.r & b.r); }
-    LANECAST_INLINE friend VectorMask operator|(VectorMask a, VectorMask b) { return __mmask16(a.r | b.r); }
-    LANECAST_INLINE friend VectorMask operator!(VectorMask a) { return __mmask16(~a.r); }
+    // In mask registers: written with & and |, g++ 12 moves every mask to a general register and back.
+    LANECAST_INLINE friend VectorMask operator&(VectorMask a, VectorMask b) { return _kand_mask16(a.r, b.r); }
+    LANECAST_INLINE friend VectorMask operator|(VectorMask a, VectorMask b) { return _kor_mask16(a.r, b.r); }
+    LANECAST_INLINE friend VectorMask operator!(VectorMask a) { return _knot_mask16(a.r); }
 };
 LANECAST_INLINE std::uint32_t bits(VectorMask m) { return m.r; }
 LANECAST_INLINE VectorMask mask_from_bits_vector(std::uint32_t b) { return __mmask16(b); }

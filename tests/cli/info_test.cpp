@@ -27,7 +27,7 @@ TEST_CASE("check: ok, counts, warnings on the standard error; nothing is written
     Outcome outcome = run({"check", "small.json"}, {.directory = here});
     CHECK(outcome.code == 0);
     CHECK(outcome.out == "small.json: ok, 5 objects, 4 lights, 1 warning\n");
-    CHECK(outcome.err == "small.json: warning: 1 degenerate triangle was dropped\n");
+    CHECK(outcome.err.starts_with("small.json:17:5: warning: /objects/4: 1 degenerate triangle was dropped\n"));
     outcome = run({"check", "small.json", "--quiet"}, {.directory = here});
     CHECK(outcome.code == 0);
     CHECK((outcome.out + outcome.err).empty());

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -102,9 +103,9 @@ void check_accepted(const BlockSpec& block, const KeySpec& key, const Json& valu
     CHECK(outcome(block.name, changed).error == "");
 }
 
-/// Ends of the range in the schema's words.
+/// Ends of the range in the schema's words; those it does not have are infinite.
 struct Ends {
-    double low = -largest_magnitude, high = largest_magnitude;
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
     bool low_open = false, high_open = false;
 };
 Ends ends_of(const Json& numbers) {
@@ -270,6 +271,10 @@ TEST_CASE("the loader takes what the schema allows and refuses the rest") {
             }
         }
     }
+    // The one list without a block of its own.
+    const Ends coordinate = ends_of(schema()["definitions"]["mesh"]["properties"]["triangles"]["items"]["items"]["items"]);
+    CHECK(coordinate.low == -largest_magnitude);
+    CHECK(coordinate.high == largest_magnitude);
 }
 
 TEST_CASE("defaults are those of the schema, and every key is read") {

@@ -40,7 +40,7 @@ Film render_small(const SceneDescription& scene, RenderSettings settings) {
     CHECK(arrays.warnings.empty());
     CHECK(arrays.degenerate_triangles == 0);
     const FrameOptions options{.width = 64, .height = 36, .threads = 2};
-    return render_frame(*find_kernels("auto", settings.precision), arrays, scene.camera, settings, options).film;
+    return render_frame(find_kernels("auto", settings.precision), arrays, scene.camera, settings, options).film;
 }
 
 struct PixelCounts {

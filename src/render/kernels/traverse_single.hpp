@@ -59,7 +59,7 @@ LANECAST_INLINE void hit_triangles(const SceneView& scene, SingleRay<F>& ray, co
         const TriangleEdges<F> edges = triangle_edges(sheared, vertex(0), vertex(1), vertex(2));
         const Mask<F> inside = edges.inside & first_lanes<F>(count - c);
         if (none(inside)) continue;
-        const F t = triangle_t(sheared, edges);
+        const F t = triangle_t(sheared.shear.z, edges);
         alignas(64) S t_lanes[W];
         store(t_lanes, t);
         for_each_bit(bits(inside & (t <= F(ray.t)) & (t >= F(ray.tmin))), [&](std::uint32_t lane) {
