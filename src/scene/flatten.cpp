@@ -68,7 +68,7 @@ void number_slots(const Bounded& bounded, const FlatObjects& objects, bool with_
         ++counts[index_of(flat.kind)];
     }
     std::uint32_t quadrics = 0;
-    for (int kind = index_of(PrimitiveKind::sphere); kind <= index_of(PrimitiveKind::cylinder); ++kind) quadrics += counts[kind];
+    for (int kind = index_of(PrimitiveKind::sphere); kind < index_of(PrimitiveKind::plane); ++kind) quadrics += counts[kind];
     counts[index_of(PrimitiveKind::triangle)] = static_cast<std::uint32_t>(bounded.count) - quadrics;
     for (int kind = 0; kind < primitive_kind_count; ++kind) {
         arrays.first_slot[kind + 1] = arrays.first_slot[kind] + counts[kind];
@@ -82,8 +82,9 @@ void allocate_slots(SceneArrays& arrays, int threads) {
     const std::uint32_t* first = arrays.first_slot;
     const std::size_t slots = first[primitive_kind_count];
     arrays.spheres.resize(first[2] - first[1]);
-    arrays.affines.resize(first[4] - first[2]);
-    arrays.affine_shading.resize(first[4] - first[2]);
+    const std::size_t affines = first[index_of(PrimitiveKind::plane)] - first[2];
+    arrays.affines.resize(affines);
+    arrays.affine_shading.resize(affines);
     parallel_for(threads, 4, [&](std::size_t i) {
         if (i == 0) arrays.triangles.resize(first[1]);
         if (i == 1) arrays.scene_id.resize(slots);
@@ -109,7 +110,7 @@ void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const FlatObjects& obje
         set_attributes(objects.objects[object_of(refs[i])], materials, is_triangle ? refs[i].item : 0, slot + i, arrays);
         if (kind == PrimitiveKind::sphere)
             arrays.spheres[slot + i - arrays.first_slot[1]] = bounded.quadrics.spheres[refs[i].item];
-        if (kind == PrimitiveKind::ellipsoid || kind == PrimitiveKind::cylinder) {
+        if (kind >= PrimitiveKind::ellipsoid && kind < PrimitiveKind::plane) {
             arrays.affines[slot + i - arrays.first_slot[2]] = bounded.quadrics.affines[refs[i].item];
             arrays.affine_shading[slot + i - arrays.first_slot[2]] = bounded.quadrics.affine_shading[refs[i].item];
         }

@@ -109,7 +109,15 @@ Object load_object(SceneReader& reader, NodeId node) {
         Cylinder cylinder;
         block.read("radius", cylinder.radius);
         block.read("height", cylinder.height);
+        block.read("capped", cylinder.capped);
         out.shape = cylinder;
+    } else if (spec.name == "cone") {
+        Cone cone;
+        block.read("base_radius", cone.base_radius);
+        block.read("apex_radius", cone.apex_radius);
+        block.read("height", cone.height);
+        block.read("capped", cone.capped);
+        out.shape = cone;
     } else if (spec.name == "plane") {
         Plane plane;
         block.read("position", plane.position);

@@ -58,7 +58,7 @@ struct BlockSpec {
 
 namespace format {
 extern const BlockSpec scene, camera, render, anti_aliasing, material;
-extern const std::span<const BlockSpec> shapes;          ///< sphere, cylinder, plane, mesh: by `type`
+extern const std::span<const BlockSpec> shapes;          ///< sphere, cylinder, cone, plane, mesh: by `type`
 extern const std::span<const BlockSpec> transformations; ///< rotation, scale, translate
 extern const std::span<const BlockSpec> lights;          ///< ambient, directional, point, spot
 } // namespace format

@@ -60,7 +60,7 @@ TEST_CASE("info: what is modelled follows the switches") {
     CHECK(contains(info({"--no-shadows", "--no-planes", "--no-reflections", "--no-transmission", "--no-specular"}),
                    "models           triangles, spheres, ellipsoids, cylinders, lights\n"));
     CHECK(contains(info({"--schlick", "--soft-shadows", "4", "--transmissive-shadows", "--aa", "edge"}),
-                   "leaves out       nothing\n"));
+                   "leaves out       cones, open cones\n"));
 }
 
 TEST_CASE("info --json") {
@@ -72,4 +72,16 @@ TEST_CASE("info --json") {
         CAPTURE(text);
         CHECK(contains(json, text));
     }
+}
+
+TEST_CASE("info: cones, and what has no caps") {
+    const TemporaryDirectory directory;
+    put(directory.path / "cones.json", R"({"camera": {}, "lights": [], "objects": [
+        {"type": "cone", "base_radius": 1, "height": 1, "material": {}},
+        {"type": "cone", "base_radius": 1, "apex_radius": 0.5, "height": 1, "capped": false, "material": {}},
+        {"type": "cylinder", "radius": 1, "height": 1, "capped": false, "material": {}}]})");
+    const std::string text = run({"info", "cones.json", "--quiet"}, {.directory = directory.path}).out;
+    CHECK(contains(text, "objects          3: 1 cylinder, 2 cones\n"));
+    CHECK(contains(text, "primitives       3: 1 cone, 2 open cones\n"));
+    CHECK(contains(text, "models           cones, open cones\n"));
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// A point of the scene that rays are aimed at: vertices, centres, rims; or anywhere.
 glm::dvec3 target(Random& random, const SceneArrays& scene) {
-    const std::uint32_t slots = scene.first_slot[4];
+    const std::uint32_t slots = scene.first_slot[6];
     if (slots == 0 || random.chance(0.2)) return random.point(1);
     const auto slot = static_cast<std::uint32_t>(random.below(static_cast<int>(slots)));
     if (slot < scene.first_slot[1]) {
@@ -33,6 +33,8 @@ glm::dvec3 target(Random& random, const SceneArrays& scene) {
     const AffineShadingRecord& f = scene.affine_shading[slot - scene.first_slot[2]];
     glm::dvec3 p = random.direction(), q(a.translation[0], a.translation[1], a.translation[2]);
     if (slot >= scene.first_slot[3]) p.y = random.chance(0.5) ? std::copysign(0.5, p.y) : 0.5 * p.y;
+    const double radius = 1 + double{a.taper} * p.y;
+    p.x *= radius, p.z *= radius;
     for (int row = 0; row < 3; ++row)
         for (int c = 0; c < 3; ++c) q[row] += double{f.world_from_object[3 * row + c]} * p[c];
     return q;
@@ -166,7 +168,9 @@ TEST_CASE("the tree finds what testing every primitive finds: stretched and shea
     for (int n = 0; n < cases(200); ++n) {
         SceneDescription scene;
         for (int i = 0; i < 12; ++i) {
-            Object object{random.chance(0.5) ? Shape(Sphere{}) : Shape(Cylinder{}), {}, {}, ""};
+            const Shape shapes[] = {
+                Sphere{}, Cylinder{}, Cylinder{1, 1, false}, Cone{}, Cone{1, 0.5, 1, false}, Cone{1, 0, 1, false}};
+            Object object{shapes[random.below(6)], {}, {}, ""};
             // condition numbers up to about 1e3 by stretching, and the shear that two stretches make
             const auto stretch = [&] { return std::exp(random.uniform(-3.4, 3.4)); };
             object.transformations = {Scale{{stretch(), stretch(), stretch()}}, Rotation{random.direction(), 50}};
@@ -262,7 +266,7 @@ TEST_CASE("a ray along a plane misses it, from either side and on it") {
                     const Hits hits = ask(*kernels, view(arrays), rays, Ask::closest);
                     for (std::size_t i = 0; i < rays.size(); ++i) {
                         CHECK((hits.slot[i] < 0 || hits.t[i] < 1e30f));
-                        if (hits.slot[i] >= 0) CHECK(static_cast<std::uint32_t>(hits.slot[i]) < arrays.first_slot[4]);
+                        if (hits.slot[i] >= 0) CHECK(static_cast<std::uint32_t>(hits.slot[i]) < arrays.first_slot[6]);
                     }
                 }
             }

@@ -97,19 +97,25 @@ TEST_CASE("each primitive of random scenes is the one its scene id names") {
                         REQUIRE(classify(t.linear) == TransformClass::affine);
                     }
                 } else if (std::holds_alternative<Plane>(object.shape)) {
-                    REQUIRE(kind == 4);
+                    REQUIRE(kind == 6);
                 } else {
-                    REQUIRE(kind == 3);
+                    const auto* cylinder = std::get_if<Cylinder>(&object.shape);
+                    const auto* cone = std::get_if<Cone>(&object.shape);
+                    REQUIRE(kind == ((cylinder ? cylinder->capped : cone->capped) ? (cylinder ? 3 : 4) : 5));
                 }
-                if (kind == 2 || kind == 3) { // points on the true body are on the unit one, and back
+                if (kind >= 2 && kind <= 5) { // points on the true body are on the unit one, and back
                     const AffineRecord& record = arrays.affines[slot - arrays.first_slot[2]];
                     const AffineShadingRecord& shading = arrays.affine_shading[slot - arrays.first_slot[2]];
                     const auto* cylinder = std::get_if<Cylinder>(&object.shape);
+                    const auto* cone = std::get_if<Cone>(&object.shape);
+                    const double radius = cone ? 0.5 * (cone->base_radius + cone->apex_radius) : cylinder ? cylinder->radius : 0;
+                    const double height = cone ? cone->height : cylinder ? cylinder->height : 0;
+                    const double taper = cone ? (cone->apex_radius - cone->base_radius) / radius : 0;
+                    REQUIRE(std::abs(double{record.taper} - taper) <= 1e-7 * std::abs(taper));
                     for (int sample = 0; sample < 4; ++sample) {
                         const glm::dvec3 q = random.direction();
                         const auto* s = std::get_if<Sphere>(&object.shape);
-                        const glm::dvec3 body = s ? s->position + s->radius * q
-                                                  : glm::dvec3(cylinder->radius, cylinder->height, cylinder->radius) * q;
+                        const glm::dvec3 body = s ? s->position + s->radius * q : glm::dvec3(radius, height, radius) * q;
                         const glm::dvec3 world = normalised(n, apply(t, body)), from_centre = world - vec(record.translation);
                         const double tolerance =
                             1e-6 * (1 + glm::length(world) * glm::length(times(record.object_from_world, from_centre)) /
@@ -162,8 +168,8 @@ TEST_CASE("planes: unit normals, normalised distances, dropped with their materi
     CHECK(double{arrays.planes[1].distance} == doctest::Approx(std::sqrt(3.0) / 2));
     CHECK(arrays.scene_id == std::vector<std::uint32_t>{1, 0, 2});
     CHECK((arrays.features & (feature_planes | feature_reflective)) == (feature_planes | feature_reflective));
-    CHECK(arrays.first_slot[4] == 1);
-    CHECK(arrays.first_slot[5] == 3);
+    CHECK(arrays.first_slot[6] == 1);
+    CHECK(arrays.first_slot[7] == 3);
 
     RenderSettings off;
     off.planes = false;
@@ -172,7 +178,7 @@ TEST_CASE("planes: unit normals, normalised distances, dropped with their materi
     CHECK(without.scene_id == std::vector<std::uint32_t>{1});
     CHECK((without.features & (feature_planes | feature_reflective)) == 0);
     CHECK(without.materials.size() == 1);
-    CHECK(without.first_slot[5] == 1);
+    CHECK(without.first_slot[7] == 1);
 }
 
 TEST_CASE("a scene of planes has no tree, and an empty one nothing") {
@@ -183,7 +189,7 @@ TEST_CASE("a scene of planes has no tree, and an empty one nothing") {
     CHECK(view(arrays).leaf_count == 0);
     CHECK(arrays.max_coordinate == 0);
     CHECK(arrays.bounds_min.x > arrays.bounds_max.x);
-    CHECK(view(arrays).first_slot[5] == 1);
+    CHECK(view(arrays).first_slot[7] == 1);
 }
 
 TEST_CASE("degenerate triangles are dropped and counted, slivers are kept, ids have gaps") {

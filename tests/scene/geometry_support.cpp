@@ -61,7 +61,7 @@ Mesh triangle_mesh(std::vector<std::array<glm::dvec3, 3>> triangles) {
 
 SceneDescription random_scene(Random& random, int size) {
     SceneDescription scene;
-    const int layout = random.below(5), kinds = 1 + random.below(31);
+    const int layout = random.below(5), kinds = 1 + random.below(63);
     const double spacing = random.chance(0.5) ? 1 : std::exp(random.uniform(-5, 5));
     const glm::dvec3 line = random.direction(), where = random.point(1);
     const auto place = [&](int i) -> glm::dvec3 {
@@ -79,7 +79,7 @@ SceneDescription random_scene(Random& random, int size) {
         }
     };
     for (int i = 0; i < size;) {
-        const int kind = random.below(5);
+        const int kind = random.below(6);
         if ((kinds >> kind & 1) == 0) continue;
         Object object;
         object.material.diffuse = glm::dvec3(0.25 * random.below(4));
@@ -91,7 +91,7 @@ SceneDescription random_scene(Random& random, int size) {
             object.transformations = {Scale{{1, 2, 3}}, Rotation{random.direction(), 30}, Translation{place(i)}};
         }
         if (kind == 2) {
-            object.shape = Cylinder{radius, random.uniform(0.1, 2)};
+            object.shape = Cylinder{radius, random.uniform(0.1, 2), random.chance(0.7)};
             object.transformations.emplace_back(Translation{place(i)});
         }
         if (kind == 3) {
@@ -99,6 +99,11 @@ SceneDescription random_scene(Random& random, int size) {
             object.shape = Plane{place(i), random.direction() * random.uniform(0.1, 10)};
         }
         if (kind == 4) {
+            const double apex = random.chance(0.4) ? 0 : random.chance(0.2) ? radius : random.uniform(0, 1);
+            object.shape = Cone{radius, apex, random.uniform(0.1, 2), random.chance(0.5)};
+            object.transformations.emplace_back(Translation{place(i)});
+        }
+        if (kind == 5) {
             std::vector<std::array<glm::dvec3, 3>> triangles;
             const int count = std::min(size - i, 1 + random.below(20));
             for (int t = 0; t < count; ++t) {
@@ -120,6 +125,7 @@ SceneDescription scaled_scene(SceneDescription scene, int k) {
     for (Object& object : scene.objects) {
         if (auto* sphere = std::get_if<Sphere>(&object.shape)) sphere->radius *= s, sphere->position *= s;
         if (auto* cylinder = std::get_if<Cylinder>(&object.shape)) cylinder->radius *= s, cylinder->height *= s;
+        if (auto* cone = std::get_if<Cone>(&object.shape)) cone->base_radius *= s, cone->apex_radius *= s, cone->height *= s;
         if (auto* plane = std::get_if<Plane>(&object.shape)) plane->position *= s;
         if (auto* mesh = std::get_if<Mesh>(&object.shape))
             for (auto& p : mesh->positions) p *= s;
@@ -174,11 +180,12 @@ struct Walk {
         Random random(slot);
         for (int i = 0; i < 40; ++i) {
             glm::dvec3 p = random.direction();
-            if (kind == PrimitiveKind::cylinder) {
-                const double angle = random.uniform(0, 7);
-                p = {std::cos(angle), random.chance(0.5) ? 0.5 : -0.5, std::sin(angle)};
+            if (kind != PrimitiveKind::ellipsoid) {
+                const double angle = random.uniform(0, 7), y = random.chance(0.5) ? 0.5 : -0.5;
+                const double radius = kind == PrimitiveKind::cylinder ? 1 : 1 + double{r.taper} * y;
+                p = {radius * std::cos(angle), y, radius * std::sin(angle)};
             }
-            inside(box, world_from_object * p + t, kind == PrimitiveKind::cylinder ? "a cylinder" : "an ellipsoid");
+            inside(box, world_from_object * p + t, kind == PrimitiveKind::ellipsoid ? "an ellipsoid" : "a cylinder or cone");
         }
     }
 
@@ -260,7 +267,7 @@ struct Walk {
 
 std::string check_tree(const SceneArrays& arrays) {
     Walk walk{arrays};
-    const std::uint32_t planes = arrays.first_slot[4], slots = arrays.first_slot[5];
+    const std::uint32_t planes = arrays.first_slot[6], slots = arrays.first_slot[7];
     walk.seen.assign(slots, 0);
     std::copy_n(arrays.first_slot, primitive_kind_count, walk.next_slot);
     if (arrays.scene_id.size() != slots || arrays.object.size() != slots || arrays.material.size() != slots)

@@ -75,14 +75,17 @@ public:
         Object out;
         out.material = material();
         if (coin()) out.name = coin() ? "ball" : "tab\t\"quote\" \\ caf\u00e9 \U0001F600";
-        switch (whole(0, 3)) {
+        switch (whole(0, 4)) {
         case 0:
             out.shape = Sphere{positive(), point()};
             break;
         case 1:
-            out.shape = Cylinder{positive(), positive()};
+            out.shape = Cylinder{positive(), positive(), coin()};
             break;
         case 2:
+            out.shape = Cone{positive(), not_negative(), positive(), coin()};
+            break;
+        case 3:
             out.shape = Plane{point(), direction()};
             return out;
         default:

@@ -42,6 +42,7 @@ Json minimal(std::string_view block) {
     Json out = {{"type", block}};
     if (block == "sphere") out.update({{"radius", 1}, {"material", Json::object()}});
     if (block == "cylinder") out.update({{"radius", 1}, {"height", 1}, {"material", Json::object()}});
+    if (block == "cone") out.update({{"base_radius", 1}, {"height", 1}, {"material", Json::object()}});
     if (block == "plane") out.update({{"position", up}, {"normal", up}, {"material", Json::object()}});
     if (block == "mesh") out.update({{"triangles", {{up, one, {2, 1, 4}}}}, {"material", Json::object()}});
     if (block == "rotation") out.update({{"axis", up}, {"degrees", 30}});

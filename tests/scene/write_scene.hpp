@@ -35,7 +35,14 @@ inline Json to_json(const Object& object) {
     if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
         out.update({{"type", "sphere"}, {"radius", sphere->radius}, {"position", to_json(sphere->position)}});
     } else if (const auto* cylinder = std::get_if<Cylinder>(&object.shape)) {
-        out.update({{"type", "cylinder"}, {"radius", cylinder->radius}, {"height", cylinder->height}});
+        out.update(
+            {{"type", "cylinder"}, {"radius", cylinder->radius}, {"height", cylinder->height}, {"capped", cylinder->capped}});
+    } else if (const auto* cone = std::get_if<Cone>(&object.shape)) {
+        out.update({{"type", "cone"},
+                    {"base_radius", cone->base_radius},
+                    {"apex_radius", cone->apex_radius},
+                    {"height", cone->height},
+                    {"capped", cone->capped}});
     } else if (const auto* plane = std::get_if<Plane>(&object.shape)) {
         out.update({{"type", "plane"}, {"position", to_json(plane->position)}, {"normal", to_json(plane->normal)}});
     } else {

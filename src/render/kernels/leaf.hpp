@@ -2,6 +2,7 @@
 // The primitives of a leaf against a packet, and the rule by which a hit is taken: nearest t, ties to the smaller scene id, so
 // that neither the tree nor the grouping of rays can show in the picture.
 
+#include "render/kernels/cone.hpp"
 #include "render/kernels/packet.hpp"
 #include "render/kernels/plane.hpp"
 #include "render/kernels/quadric.hpp"
@@ -61,6 +62,27 @@ LANECAST_INLINE bool hit_convex(const SceneView& scene, Packet<F>& packet, std::
     const Mask<F> enters = later<query>(packet, i, ends.t0, id) & !inward;
     const F t = select(enters, ends.t0, ends.t1);
     const Mask<F> found = ends.hit & !outward & (enters | later<query>(packet, i, ends.t1, id)) & (t <= load<F>(packet.t + i));
+    if (none(found)) return false;
+    take<query>(scene, packet, i, t, slot, found);
+    return true;
+}
+
+/// An open cone or cylinder, met at either end that is on its side. It is part of a convex body's surface, so what the body's own
+/// rays cannot meet, its side's cannot either.
+template <Query query, FloatBatch F>
+LANECAST_INLINE bool hit_open(const SceneView& scene, Packet<F>& packet, std::uint32_t i, const CappedCrossing<F>& crossing,
+                              std::uint32_t slot) {
+    const Mask<F> side0 = crossing.ends.hit & !crossing.cap0, side1 = crossing.ends.hit & !crossing.cap1;
+    if (none(side0 | side1)) return false;
+    const std::uint32_t id = scene.scene_id[slot];
+    const Int<F> source = load_int<F>(packet.source + i);
+    const Int<F> this_slot(static_cast<std::int32_t>(slot));
+    const Mask<F> outward = source == source_outward(this_slot);
+    const Mask<F> inward = source == source_inward(this_slot);
+    const Mask<F> enters = side0 & later<query>(packet, i, crossing.ends.t0, id) & !inward;
+    const F t = select(enters, crossing.ends.t0, crossing.ends.t1);
+    const Mask<F> leaves = side1 & later<query>(packet, i, crossing.ends.t1, id);
+    const Mask<F> found = (enters | leaves) & (!outward) & (t <= load<F>(packet.t + i));
     if (none(found)) return false;
     take<query>(scene, packet, i, t, slot, found);
     return true;
@@ -148,6 +170,17 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
                 const Crossing<F> ends =
                     cross_sphere(packet.origin(i) - centre, packet.direction(i), F(S(sphere.radius)), Mask<F>(true));
                 if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
+            });
+        } else if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {
+            const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
+            for_each_bit(vectors, [&](std::uint32_t vector) {
+                const std::uint32_t i = vector * width<F>;
+                const CappedCrossing<F> crossing =
+                    cross_cone(point_to_object(affine, packet.origin(i)), direction_to_object(affine, packet.direction(i)),
+                               F(S(affine.taper)), Mask<F>(true));
+                if (kind == PrimitiveKind::cone ? hit_convex<query>(scene, packet, i, crossing.ends, slot)
+                                                : hit_open<query>(scene, packet, i, crossing, slot))
+                    changed |= 1u << vector;
             });
         } else {
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];

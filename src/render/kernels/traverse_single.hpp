@@ -78,19 +78,27 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
     using S = Scalar<F>;
     const Vec3<S> org{ray.org[0], ray.org[1], ray.org[2]}, dir{ray.dir[0], ray.dir[1], ray.dir[2]};
     Crossing<S> ends;
+    bool open0 = false, open1 = false; // an end where the body has no surface
     if (kind == PrimitiveKind::sphere) {
         const SphereRecord& sphere = sphere_at(scene, slot);
         ends = cross_sphere<S>(org - splat<S>(sphere.centre), dir, S(sphere.radius), true);
     } else {
         const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
         const Vec3<S> o = point_to_object<S>(affine, org), d = direction_to_object<S>(affine, dir);
-        ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
+        if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {
+            const CappedCrossing<S> crossing = cross_cone<S>(o, d, S(affine.taper), true);
+            ends = crossing.ends;
+            open0 = kind == PrimitiveKind::open_cone && crossing.cap0;
+            open1 = kind == PrimitiveKind::open_cone && crossing.cap1;
+        } else {
+            ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
+        }
     }
     const auto this_slot = static_cast<std::int32_t>(slot);
     if (!ends.hit || ray.source == source_outward(this_slot)) return;
-    const bool enters = ray.source != source_inward(this_slot) && later<query>(scene, ray, ends.t0, slot);
+    const bool enters = !open0 && ray.source != source_inward(this_slot) && later<query>(scene, ray, ends.t0, slot);
     const S t = enters ? ends.t0 : ends.t1;
-    if ((enters || later<query>(scene, ray, t, slot)) && t <= ray.t) take<query>(scene, ray, t, slot);
+    if ((enters || (!open1 && later<query>(scene, ray, t, slot))) && t <= ray.t) take<query>(scene, ray, t, slot);
 }
 
 template <Query query, FloatBatch F>
