@@ -2,7 +2,7 @@
 // Boxes in, eight-wide tree in one arena out. The steps: bvh_binary, bvh_collapse, emission, bvh_quality.
 
 #include "scene/aligned_bytes.hpp"
-#include "scene/bvh_refs.hpp"
+#include "scene/bvh_binary.hpp"
 #include "scene/scene_arrays.hpp"
 
 #include <cstddef>
@@ -22,6 +22,7 @@ struct BvhTree {
 
 /// Reorders `refs`. first_slot[kind]: slot of the kind's first primitive. The same bytes for any number of threads. Without
 /// primitives, an empty tree. Throws Error (memory) where the arena exceeds 2 GiB.
-[[nodiscard]] BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_slot, int threads);
+[[nodiscard]] BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_slot, const SpatialRoom* spatial,
+                                int threads);
 
 } // namespace lanecast

@@ -36,7 +36,7 @@ inline constexpr int max_bvh_depth = 64; ///< levels of nodes; a traversal stack
 // Reading 8 floats from any row start stays inside the arena.
 
 struct TriangleRecord {
-    float normal[3];    ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
+    float normal[3];     ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
     std::uint32_t block; ///< offset in 64-byte units << 6 | (n - 1) << 3 | lane
 };
 
@@ -100,23 +100,25 @@ inline constexpr std::uint32_t feature_refraction = 1u << 9; ///< a transmissive
 inline constexpr std::uint32_t feature_soft_lights = 1u << 10;
 
 struct SceneView {
-    const unsigned char* arena;    ///< nodes and triangle blocks; the root node, if any, is at offset 0
-    const std::uint64_t* leaves;   ///< every leaf as a child word, in arena order
+    const unsigned char* arena;  ///< nodes and triangle blocks; the root node, if any, is at offset 0
+    const std::uint64_t* leaves; ///< every leaf as a child word, in arena order
     const TriangleRecord* triangles;
     const SphereRecord* spheres;
-    const AffineRecord* affines;                ///< ellipsoids, then cylinders
-    const AffineShadingRecord* affine_shading;  ///< as `affines`
+    const AffineRecord* affines;               ///< ellipsoids, then cylinders
+    const AffineShadingRecord* affine_shading; ///< as `affines`
     const PlaneRecord* planes;
-    const std::uint32_t* scene_id;  ///< per slot: objects in file order, triangles in mesh order before any was dropped
-    const std::uint32_t* object;    ///< per slot: index of the object in the file
-    const std::uint32_t* material;  ///< per slot
+    const std::uint32_t* scene_id; ///< per slot: objects in file order, triangles in mesh order before any was dropped
+    const std::uint32_t* object;   ///< per slot: index of the object in the file
+    const std::uint32_t* material; ///< per slot
     const MaterialRecord* materials;
     const LightRecord* lights;
+    const std::uint32_t* triangle_slot; ///< null: a triangle stands in one leaf. Else in several, and leaf words count references
+                                        ///< instead of triangle slots: the slot of each
     std::uint32_t first_slot[primitive_kind_count + 1]; ///< by PrimitiveKind; the last is the number of slots
-    std::uint32_t leaf_count; ///< 0: no bounded primitive, no node
+    std::uint32_t leaf_count;                           ///< 0: no bounded primitive, no node
     std::uint32_t light_count;
     std::uint32_t features; ///< feature_* bits
-    float ambient[3];    ///< sum of the ambient lights
+    float ambient[3];       ///< sum of the ambient lights
     float background[3];
     float max_coordinate; ///< largest |coordinate| of the root's boxes
 };

@@ -68,7 +68,7 @@ LANECAST_INLINE bool hit_convex(const SceneView& scene, Packet<F>& packet, std::
 
 template <Query query, FloatBatch F>
 LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                   std::uint32_t first_slot, std::uint32_t count) {
+                                   std::uint32_t first, std::uint32_t count) {
     using S = Scalar<F>;
     const Axes axes = packet.axes;
     bool hit_any = false;
@@ -80,16 +80,17 @@ LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, st
                            F(S(row[static_cast<std::uint32_t>(axes.kz) * count]))};
         };
         const Vec3<F> a = vertex(0), b = vertex(1), c = vertex(2);
-        const std::uint32_t slot = first_slot + lane;
         for_each_bit(vectors, [&](std::uint32_t vector) {
             const std::uint32_t i = vector * width<F>;
             const ShearedRay<F> ray = packet.sheared(i);
             const TriangleEdges<F> edges = triangle_edges(ray, a, b, c);
             if (none(edges.inside)) return;
             const F t = triangle_t(ray, edges);
+            const Mask<F> nearer = edges.inside & (t <= load<F>(packet.t + i)) & (t >= load<F>(packet.tmin + i));
+            if (none(nearer)) return; // few candidates are left: what follows is rare
+            const std::uint32_t slot = triangle_slot(scene, first + lane);
             const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
-            const Mask<F> found = edges.inside & (t <= load<F>(packet.t + i)) &
-                                  later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
+            const Mask<F> found = nearer & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
             if (none(found)) return;
             take<query>(scene, packet, i, t, slot, found);
             hit_any = true;

@@ -24,6 +24,11 @@ LANECAST_INLINE const PlaneRecord& plane_at(const SceneView& scene, std::uint32_
     return scene.planes[slot - first_slot(scene, PrimitiveKind::plane)];
 }
 
+/// Of the triangle that a leaf's word numbers: one slot, in however many leaves it stands.
+LANECAST_INLINE std::uint32_t triangle_slot(const SceneView& scene, std::uint32_t reference) {
+    return scene.triangle_slot != nullptr ? scene.triangle_slot[reference] : reference;
+}
+
 /// Lanes whose slot lies in [first, end).
 template <FloatBatch F>
 LANECAST_INLINE Mask<F> slot_between(Int<F> slot, std::uint32_t first, std::uint32_t end) {
