@@ -5,6 +5,7 @@
 #include "scene/bvh_quality.hpp"
 #include "scene/error.hpp"
 #include "scene/parallel.hpp"
+#include "scene/scratch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,6 @@ std::uint64_t leaf_word(const BinaryNode& leaf, std::uint32_t kind, std::uint32_
 
 struct Emission {
     const BinaryTree& binary;
-    const BuildRef* refs;
     const std::uint32_t* first_slot;
     BvhTree& tree;
 };
@@ -41,13 +41,46 @@ void emit_node(const Emission& out, const WidePiece& piece, const WideNode& wide
             node.child[i] = begin.units + wide.place[i];
             continue;
         }
-        const std::uint32_t kind = kind_of(out.refs[child.first]);
-        const bool has_block = kind == static_cast<std::uint32_t>(PrimitiveKind::triangle);
-        node.child[i] = leaf_word(child, kind, has_block ? begin.units + wide.place[i] : 0,
-                                  out.first_slot[kind] + begin.references[kind] + wide.reference[i]);
+        const std::uint32_t kind = wide.kinds >> (4 * i) & 15u;
+        const bool is_shared = kind == leaf_of_shared;
+        const bool has_block = is_shared || kind == static_cast<std::uint32_t>(PrimitiveKind::triangle);
+        const std::uint32_t first =
+            is_shared ? wide.reference[i] : out.first_slot[kind] + begin.references[kind] + wide.reference[i];
+        node.child[i] = leaf_word(child, kind, has_block ? begin.units + wide.place[i] : 0, first);
         const std::uint32_t leaf = begin.leaves + wide.leaf[i];
         out.tree.leaves[leaf] = node.child[i];
         out.tree.leaf_first_ref[leaf] = child.first;
+    }
+}
+
+/// Where triangles may stand in several leaves: slots in the order of first appearance. Leaves in which all appear first stay as
+/// they are, the others become leaves of shared triangles.
+void number_shared(const BinaryTree& binary, const BuildRef* refs, const SpatialRoom& spatial, WideTree& wide,
+                   std::vector<std::uint32_t>& shared_slots) {
+    constexpr std::uint32_t none = 0xffffffffu;
+    const Scratch<std::uint32_t> slot_of = make_scratch<std::uint32_t>(spatial.primitives);
+    std::fill_n(slot_of.get(), spatial.primitives, none);
+    std::uint32_t next = 0;
+    const auto number_leaf = [&](WideNode& node, std::uint32_t i) {
+        const BinaryNode& leaf = binary.nodes[node.child[i]];
+        std::uint32_t slots[max_leaf_size];
+        const std::uint32_t first = next;
+        for (std::uint32_t k = 0; k < leaf.count; ++k) {
+            std::uint32_t& slot = slot_of[spatial.index_of(refs[leaf.first + k])];
+            slots[k] = slot == none ? next | first_here : slot;
+            if (slot == none) slot = next++;
+        }
+        node.reference[i] = first;
+        if (next - first == leaf.count) return;
+        node.reference[i] = static_cast<std::uint32_t>(shared_slots.size());
+        node.kinds |= leaf_of_shared << (4 * i);
+        shared_slots.insert(shared_slots.end(), slots, slots + leaf.count);
+    };
+    for (WidePiece& piece : wide.pieces) {
+        piece.begin.references[static_cast<int>(PrimitiveKind::triangle)] = 0;
+        for (WideNode& node : piece.nodes)
+            for (std::uint32_t i = 0; i < node.count; ++i)
+                if ((node.leaves >> i & 1u) != 0 && (node.kinds >> (4 * i) & 15u) == 0) number_leaf(node, i);
     }
 }
 
@@ -56,8 +89,10 @@ void emit_node(const Emission& out, const WidePiece& piece, const WideNode& wide
 BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_slot, const SpatialRoom* spatial, int threads) {
     BvhTree tree;
     if (count == 0) return tree;
+    if (count >= largest_arena / 36) throw Error(ExitCode::memory, "the scene has too many primitives for a tree of 2 GiB");
     const BinaryTree binary = build_binary(refs, count, spatial, threads);
-    const WideTree wide = collapse(binary, refs, spatial != nullptr, threads);
+    WideTree wide = collapse(binary, refs, spatial != nullptr, threads);
+    if (spatial != nullptr) number_shared(binary, refs, *spatial, wide, tree.shared_slots);
     tree.arena_bytes = std::size_t{wide.size.units} * 64;
     tree.arena = make_paged_bytes(tree.arena_bytes);
     tree.leaves.resize(wide.size.leaves);
@@ -67,7 +102,7 @@ BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_
     parallel_for(threads, wide.pieces.size(), [&](std::size_t p) {
         const WidePiece& piece = wide.pieces[p];
         for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
-            emit_node({binary, refs, first_slot, tree}, piece, piece.nodes[i]);
+            emit_node({binary, first_slot, tree}, piece, piece.nodes[i]);
             offsets[piece.begin.nodes + i] = piece.begin.units + piece.nodes[i].offset;
         }
     });

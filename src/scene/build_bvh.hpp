@@ -11,11 +11,14 @@
 
 namespace lanecast {
 
+inline constexpr std::uint32_t first_here = 0x80000000u;
+
 struct BvhTree {
     AlignedBytes arena; ///< nodes are written, triangle blocks are left to the caller
     std::size_t arena_bytes = 0;
     std::vector<std::uint64_t> leaves;         ///< child words, in arena order
     std::vector<std::uint32_t> leaf_first_ref; ///< per leaf: its primitives are the `refs` from here on
+    std::vector<std::uint32_t> shared_slots;   ///< with first_here where the triangle has its slot from here
     BvhQuality quality;
     float max_coordinate = 0;
 };

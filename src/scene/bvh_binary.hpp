@@ -27,7 +27,8 @@ struct BinaryTree {
 /// What spatial splits need: `refs` has room for `capacity` references.
 struct SpatialRoom {
     CornersOf corners_of;
-    std::size_t capacity = 0;
+    std::function<std::size_t(const BuildRef&)> index_of; ///< of the primitive among `primitives`
+    std::size_t primitives = 0, capacity = 0;
 };
 
 /// Reorders `refs` (1 <= count < 2^31) so that every node has a contiguous range. Leaves hold one kind and at most max_leaf_size

@@ -9,8 +9,7 @@
 namespace lanecast {
 namespace {
 
-constexpr std::uint32_t task_size = 8192;                       ///< subtrees of fewer primitives are pieces
-constexpr std::uint64_t largest_arena = std::uint64_t{1} << 31; ///< bytes: what child_block_shift leaves room for
+constexpr std::uint32_t task_size = 8192; ///< subtrees of fewer primitives are pieces
 constexpr std::uint32_t no_piece = 0xffffffffu;
 
 /// Where a piece's root stands in the piece above.
@@ -91,6 +90,7 @@ private:
     void add_leaf(WidePiece& piece, WideNode& wide, std::uint32_t i) const {
         const BinaryNode& leaf = nodes_[wide.child[i]];
         const std::uint32_t kind = kind_of(refs_[leaf.first]);
+        wide.kinds |= kind << (4 * i);
         wide.reference[i] = piece.size.references[kind];
         piece.size.references[kind] += leaf.count;
         wide.leaf[i] = piece.size.leaves++;

@@ -13,6 +13,7 @@ struct WideNode {
     std::uint32_t offset;       ///< in the arena, in units of 64 bytes
     std::uint32_t count;        ///< of children
     std::uint32_t leaves;       ///< bit i: child i is a leaf
+    std::uint32_t kinds;        ///< of leaves: PrimitiveKind of child i from bit 4 i on
     std::uint32_t child[8];     ///< binary nodes
     std::uint32_t place[8];     ///< offset in the arena of the child's node or of its triangle block; of other leaves 0
     std::uint32_t reference[8]; ///< of a leaf: its first primitive, counted in arena order within its kind
@@ -40,6 +41,8 @@ struct WideTree {
     WideExtent size;
     int depth = 0; ///< levels of nodes
 };
+
+inline constexpr std::uint64_t largest_arena = std::uint64_t{1} << 31; ///< bytes: what child_block_shift leaves room for
 
 /// Units of 64 bytes that a block of n triangles takes: 9 rows of n floats.
 [[nodiscard]] constexpr std::uint32_t block_units(std::uint32_t n) noexcept { return (36 * n + 63) / 64; }

@@ -3,8 +3,9 @@
 #include "scene/bvh_split.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace lanecast {
@@ -142,40 +143,31 @@ private:
 } // namespace
 
 unsigned chop(const BuildRef& ref, const std::array<const float*, 3>& corners, int axis, float x, BuildRef parts[2]) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double lo[2][3], hi[2][3], extent = 0, largest = 0;
-    for (int side = 0; side < 2; ++side) std::fill_n(lo[side], 3, infinity), std::fill_n(hi[side], 3, -infinity);
-    const auto add = [&](int side, const double p[3]) {
-        for (int i = 0; i < 3; ++i) lo[side][i] = std::min(lo[side][i], p[i]), hi[side][i] = std::max(hi[side][i], p[i]);
-    };
-    for (std::size_t v = 0; v < 3; ++v) {
-        const float *a = corners[v], *b = corners[(v + 1) % 3];
-        const double p[3] = {a[0], a[1], a[2]};
-        if (a[axis] <= x) add(0, p);
-        if (a[axis] >= x) add(1, p);
-        if ((a[axis] < x && b[axis] > x) || (a[axis] > x && b[axis] < x)) {
-            const double share = (double{x} - p[axis]) / (double{b[axis]} - p[axis]);
-            double q[3];
-            for (int i = 0; i < 3; ++i) q[i] = p[i] + (double{b[i]} - p[i]) * share;
-            q[axis] = x;
-            add(0, q), add(1, q);
-        }
-        for (int i = 0; i < 3; ++i) {
-            extent = std::max(extent, std::abs(double{b[i]} - p[i]));
-            largest = std::max(largest, std::abs(p[i]));
+    const Float4 vertices[3] = {load_xyz(corners[0]), load_xyz(corners[1]), load_xyz(corners[2])};
+    Box whole, side[2];
+    for (const Float4 v : vertices) grow(whole, v, v);
+    for (std::size_t i = 0, j = 1; i < 3; ++i, j = j == 2 ? 0 : j + 1) {
+        const float a = corners[i][axis], b = corners[j][axis];
+        if (a <= x) grow(side[0], vertices[i], vertices[i]);
+        if (a >= x) grow(side[1], vertices[i], vertices[i]);
+        if ((a < x && b > x) || (a > x && b < x)) {
+            const Float4 crossing = vertices[i] + (vertices[j] - vertices[i]) * splat4((x - a) / (b - a));
+            for (Box& box : side) grow(box, crossing, crossing);
         }
     }
-    const double pad = extent * 0x1p-14 + largest * 0x1p-22;
+    // The second term covers the rounding above.
+    const Float4 extent = whole.hi - whole.lo, magnitude = max4(whole.hi, -whole.lo);
+    const Float4 pad = splat4(std::max({extent[0], extent[1], extent[2]}) * 0x1p-14f +
+                              std::max({magnitude[0], magnitude[1], magnitude[2]}) * 0x1p-21f);
+    const Float4 ref_lo = lo_of(ref), ref_hi = hi_of(ref);
     unsigned used = 0;
-    for (int side = 0; side < 2; ++side) {
-        parts[side] = ref;
-        bool empty = false;
-        for (int i = 0; i < 3; ++i) {
-            parts[side].lo[i] = std::max(ref.lo[i], static_cast<float>(lo[side][i] - pad));
-            parts[side].hi[i] = std::min(ref.hi[i], static_cast<float>(hi[side][i] + pad));
-            empty = empty || !(parts[side].lo[i] <= parts[side].hi[i]);
-        }
-        if (!empty) used |= 1u << side;
+    for (unsigned i = 0; i < 2; ++i) {
+        const Float4 lo = max4(side[i].lo - pad, ref_lo), hi = min4(side[i].hi + pad, ref_hi);
+        parts[i] = ref;
+        std::memcpy(parts[i].lo, &lo, sizeof parts[i].lo);
+        std::memcpy(parts[i].hi, &hi, sizeof parts[i].hi);
+        const Int4 empty = lo > hi; // the fourth lanes are made of 0
+        if ((empty[0] | empty[1] | empty[2]) == 0) used |= 1u << i;
     }
     return used;
 }

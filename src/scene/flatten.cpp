@@ -101,14 +101,6 @@ std::uint32_t leaf_count(std::uint64_t leaf) {
     return static_cast<std::uint32_t>(leaf >> child_count_shift & child_count_mask) + 1;
 }
 
-/// Calls visit(leaf, first reference, count).
-template <class Visit>
-void for_each_triangle_leaf(const std::vector<std::uint64_t>& leaves, Visit&& visit) {
-    for (std::size_t i = 0; i < leaves.size(); ++i)
-        if ((leaves[i] >> child_kind_shift & child_kind_mask) == static_cast<std::uint64_t>(PrimitiveKind::triangle))
-            visit(i, static_cast<std::uint32_t>(leaves[i]), leaf_count(leaves[i]));
-}
-
 void set_attributes(const FlatObject& flat, const FlatMaterials& materials, std::uint32_t triangle, std::uint32_t slot,
                     SceneArrays& arrays) {
     arrays.scene_id[slot] = flat.first_scene_id + triangle;
@@ -122,39 +114,15 @@ struct Sources {
     const Bounded& bounded;
     const FlatMaterials& materials;
     const BvhTree& tree;
-    std::vector<std::uint32_t> owners; ///< per triangle slot: the reference that fills it; empty where each has one
 };
 
-/// Where triangles stand in several leaves: slots in the order of their first references, which become the owners.
-void number_references(Sources& sources, SceneArrays& arrays) {
-    const std::uint32_t triangles = arrays.first_slot[1];
-    std::size_t references = 0;
-    for_each_triangle_leaf(arrays.leaves, [&](std::size_t, std::uint32_t, std::uint32_t count) { references += count; });
-    if (references == triangles) return;
-    constexpr std::uint32_t none = 0xffffffffu;
-    Scratch<std::uint32_t> slot_of = make_scratch<std::uint32_t>(sources.objects.refs);
-    std::fill_n(slot_of.get(), sources.objects.refs, none);
-    arrays.triangle_slot.resize(references);
-    sources.owners.reserve(triangles);
-    for_each_triangle_leaf(arrays.leaves, [&](std::size_t leaf, std::uint32_t first, std::uint32_t count) {
-        const BuildRef* const refs = sources.bounded.refs.get() + sources.tree.leaf_first_ref[leaf];
-        for (std::uint32_t i = 0; i < count; ++i) {
-            std::uint32_t& slot = slot_of[sources.objects.objects[object_of(refs[i])].first_ref + refs[i].item];
-            if (slot == none) {
-                slot = static_cast<std::uint32_t>(sources.owners.size());
-                sources.owners.push_back(first + i);
-            }
-            arrays.triangle_slot[first + i] = slot;
-        }
-    });
-}
-
 void fill_triangles(std::uint64_t leaf, const BuildRef* refs, const Sources& sources, SceneArrays& arrays) {
+    const bool is_shared = (leaf >> child_kind_shift & child_kind_mask) == leaf_of_shared;
     const std::uint32_t count = leaf_count(leaf), first = static_cast<std::uint32_t>(leaf);
     TriangleRecord* records[max_leaf_size] = {};
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t slot = sources.owners.empty() ? first + i : arrays.triangle_slot[first + i];
-        if (!sources.owners.empty() && sources.owners[slot] != first + i) continue;
+        const std::uint32_t slot = is_shared ? sources.tree.shared_slots[first + i] ^ first_here : first + i;
+        if ((slot & first_here) != 0) continue; // filled from the leaf in which it comes first
         records[i] = &arrays.triangles[slot];
         set_attributes(sources.objects.objects[object_of(refs[i])], sources.materials, refs[i].item, slot, arrays);
     }
@@ -164,7 +132,8 @@ void fill_triangles(std::uint64_t leaf, const BuildRef* refs, const Sources& sou
 
 void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const Sources& sources, SceneArrays& arrays) {
     const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & child_kind_mask);
-    if (kind == PrimitiveKind::triangle) return fill_triangles(leaf, refs, sources, arrays);
+    if (kind == PrimitiveKind::triangle || (leaf >> child_kind_shift & child_kind_mask) == leaf_of_shared)
+        return fill_triangles(leaf, refs, sources, arrays);
     const Quadrics& quadrics = sources.bounded.quadrics;
     const auto slot = static_cast<std::uint32_t>(leaf);
     for (std::uint32_t i = 0; i < leaf_count(leaf); ++i) {
@@ -208,7 +177,9 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     arrays.bake_seconds = seconds_since(start);
 
     const auto build_start = Clock::now();
-    const SpatialRoom room{[&](const BuildRef& ref) { return corners_of(objects, bounded.vertices, ref); }, bounded.capacity};
+    const SpatialRoom room{[&](const BuildRef& ref) { return corners_of(objects, bounded.vertices, ref); },
+                           [&](const BuildRef& ref) { return objects.objects[object_of(ref)].first_ref + ref.item; },
+                           objects.refs, bounded.capacity};
     BvhTree tree = build_bvh(bounded.refs.get(), bounded.count, arrays.first_slot, spatial ? &room : nullptr, threads);
     arrays.arena = std::move(tree.arena);
     arrays.arena_bytes = tree.arena_bytes;
@@ -219,8 +190,8 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
 
     const auto fill_start = Clock::now();
     allocate_slots(arrays, threads);
-    Sources sources{objects, bounded, materials, tree, {}};
-    if (spatial) number_references(sources, arrays);
+    const Sources sources{objects, bounded, materials, tree};
+    for (const std::uint32_t slot : tree.shared_slots) arrays.shared_slots.push_back(slot & ~first_here);
     constexpr std::size_t piece = 1024;
     parallel_for(threads, piece_count(arrays.leaves.size(), piece), [&](std::size_t p) {
         for (std::size_t i = p * piece; i < std::min(arrays.leaves.size(), (p + 1) * piece); ++i)

@@ -191,7 +191,7 @@ TEST_CASE("spatial splits change no hit: random scenes and needles, rays aimed a
         RenderSettings quality;
         quality.bvh = BvhMode::quality;
         const SceneArrays arrays = flatten(scene, quality, 1);
-        split += arrays.triangle_slot.empty() ? 0 : 1;
+        split += arrays.shared_slots.empty() ? 0 : 1;
         for (int batch = 0; batch < 3; ++batch) {
             const Rays rays = random_rays(random, plain);
             REQUIRE(check_all(arrays, rays, tally) == "");

@@ -158,6 +158,7 @@ struct Walk {
     std::vector<std::uint64_t> leaves{};
     std::uint32_t next_slot[primitive_kind_count] = {};
     std::size_t next_unit = 0;
+    std::uint32_t next_shared = 0;
     std::uint32_t nodes = 0;
     int depth = 0;
 
@@ -202,7 +203,7 @@ struct Walk {
     void triangle(const Bounds& box, std::uint64_t word, std::uint32_t lane, std::uint32_t n, std::uint32_t slot) {
         const auto block = static_cast<std::uint32_t>(word >> child_block_shift & 0x1ffffffu);
         const std::uint32_t record = block << 6 | (n - 1) << 3 | lane;
-        if (arrays.triangle_slot.empty()) {
+        if (arrays.shared_slots.empty()) {
             for (std::uint32_t v = 0; v < 3; ++v) inside(box, vertex(record, v), "a vertex");
         } else {
             parts.resize(arrays.first_slot[1]);
@@ -242,12 +243,35 @@ struct Walk {
             }
     }
 
+    /// Triangles some of which were seen before, at the next place of the table.
+    void shared_leaf(const Bounds& box, std::uint64_t word, std::uint32_t n, std::uint32_t first) {
+        if ((word >> child_block_shift & 0x1ffffffu) != next_unit) fail("a block is not where the order puts it");
+        next_unit += (36 * n + 63) / 64;
+        if (first != next_shared || first + n > arrays.shared_slots.size()) return fail("shared slots are not in leaf order");
+        next_shared += n;
+        std::uint32_t again = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t slot = arrays.shared_slots[first + i];
+            if (slot >= arrays.first_slot[1]) return fail("a slot of another kind");
+            for (std::uint32_t j = 0; j < i; ++j)
+                if (arrays.shared_slots[first + j] == slot) fail("a triangle twice in one leaf");
+            if (seen[slot]++ > 0)
+                ++again;
+            else if (slot != next_slot[0]++)
+                fail("slots are not in leaf order");
+            triangle(box, word, i, n, slot);
+        }
+        if (again == 0) fail("a leaf of shared triangles without one");
+    }
+
     void leaf(const Bounds& box, std::uint64_t word) {
         leaves.push_back(word);
         const auto kind = static_cast<int>(word >> child_kind_shift & 7u);
         const std::uint32_t n = static_cast<std::uint32_t>(word >> child_count_shift & 7u) + 1;
         const auto slot = static_cast<std::uint32_t>(word);
-        if (kind >= static_cast<int>(PrimitiveKind::plane)) return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(PrimitiveKind::plane) || kind > static_cast<int>(leaf_of_shared))
+            return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(leaf_of_shared)) return shared_leaf(box, word, n, slot);
         if (slot != next_slot[kind]) fail("slots are not in leaf order");
         next_slot[kind] = slot + n;
         if (kind == 0) {
@@ -257,16 +281,6 @@ struct Walk {
             fail("a leaf of quadrics has a block");
         }
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (kind == 0 && !arrays.triangle_slot.empty()) {
-                if (slot + i >= arrays.triangle_slot.size()) return fail("a reference that does not exist");
-                const std::uint32_t own = arrays.triangle_slot[slot + i];
-                if (own >= arrays.first_slot[1]) return fail("a slot of another kind");
-                for (std::uint32_t j = 0; j < i; ++j)
-                    if (arrays.triangle_slot[slot + j] == own) fail("a triangle twice in one leaf");
-                ++seen[own];
-                triangle(box, word, i, n, own);
-                continue;
-            }
             if (slot + i < arrays.first_slot[kind] || slot + i >= arrays.first_slot[kind + 1])
                 return fail("a slot of another kind");
             ++seen[slot + i];
@@ -330,8 +344,9 @@ std::string check_tree(const SceneArrays& arrays) {
     walk.check_parts();
     if (!walk.fault.empty()) return walk.fault;
     for (std::uint32_t slot = 0; slot < planes; ++slot)
-        if (walk.seen[slot] != 1 && (walk.seen[slot] == 0 || slot >= arrays.first_slot[1] || arrays.triangle_slot.empty()))
+        if (walk.seen[slot] != 1 && (walk.seen[slot] == 0 || slot >= arrays.first_slot[1] || arrays.shared_slots.empty()))
             return "slot " + std::to_string(slot) + " is in " + std::to_string(walk.seen[slot]) + " leaves";
+    if (walk.next_shared != arrays.shared_slots.size()) return "shared slots that no leaf uses";
     if (walk.next_unit * 64 != arrays.arena_bytes) return "the arena has a remainder";
     if (walk.depth > max_bvh_depth || walk.depth != arrays.quality.depth) return "depth";
     if (walk.nodes != arrays.quality.nodes || walk.leaves.size() != arrays.quality.leaves) return "counts of the quality report";
@@ -356,7 +371,7 @@ std::string difference(const SceneArrays& a, const SceneArrays& b) {
     if (!same(a.affines, b.affines)) return "affines";
     if (!same(a.affine_shading, b.affine_shading)) return "affine_shading";
     if (!same(a.planes, b.planes)) return "planes";
-    if (!same(a.triangle_slot, b.triangle_slot)) return "triangle_slot";
+    if (!same(a.shared_slots, b.shared_slots)) return "shared_slots";
     if (!same(a.scene_id, b.scene_id) || !same(a.object, b.object) || !same(a.material, b.material)) return "attributes";
     if (!same(a.materials, b.materials)) return "materials";
     if (!same(a.lights, b.lights)) return "lights";

@@ -68,7 +68,7 @@ LANECAST_INLINE bool hit_convex(const SceneView& scene, Packet<F>& packet, std::
 
 template <Query query, FloatBatch F>
 LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                   std::uint32_t first, std::uint32_t count) {
+                                   const TriangleSlots& slots, std::uint32_t count) {
     using S = Scalar<F>;
     const Axes axes = packet.axes;
     bool hit_any = false;
@@ -88,7 +88,7 @@ LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, st
             const F t = triangle_t(ray, edges);
             const Mask<F> nearer = edges.inside & (t <= load<F>(packet.t + i)) & (t >= load<F>(packet.tmin + i));
             if (none(nearer)) return; // few candidates are left: what follows is rare
-            const std::uint32_t slot = triangle_slot(scene, first + lane);
+            const std::uint32_t slot = slots[lane];
             const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
             const Mask<F> found = nearer & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
             if (none(found)) return;
@@ -106,10 +106,10 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
     const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
     const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
-    if (kind == PrimitiveKind::triangle) {
+    if (is_of_triangles(child)) {
         const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
-        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot,
-                                    count);
+        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset),
+                                    triangle_slots(scene, child), count);
     }
     bool hit_any = false;
     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
