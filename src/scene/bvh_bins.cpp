@@ -78,6 +78,7 @@ BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
         }
     }
     if (best.axis < 0) return best;
+    best.cost = best_cost;
     for (int side = 0; side < 2; ++side) {
         best.lo[side] = splat4(empty_lo), best.hi[side] = splat4(-empty_lo);
         for (int b = side == 0 ? 0 : best.bin; b < (side == 0 ? best.bin : used); ++b) {

@@ -23,11 +23,14 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 constexpr int index_of(PrimitiveKind kind) { return static_cast<int>(kind); }
 
+constexpr double spatial_budget = 0.3; ///< references that spatial splits may add, per primitive
+
 /// Bounded primitives in file order, degenerate triangles taken out.
 struct Bounded {
     BakedVertices vertices;
     Quadrics quadrics;
-    Scratch<BuildRef> refs;
+    Scratch<BuildRef> refs; ///< with room for `capacity`
+    std::size_t capacity = 0;
     std::size_t count = 0;
 };
 
@@ -39,10 +42,12 @@ std::vector<DoubleBox> bounds_of(const FlatObjects& objects, int threads) {
     return boxes;
 }
 
-Bounded bake(const FlatObjects& objects, SceneArrays& arrays, int threads) {
+Bounded bake(const FlatObjects& objects, bool spatial, SceneArrays& arrays, int threads) {
     Bounded bounded;
+    bounded.capacity =
+        spatial ? objects.refs + static_cast<std::size_t>(static_cast<double>(objects.refs) * spatial_budget) : objects.refs;
     bounded.vertices = bake_vertices(objects, arrays.normalisation, threads);
-    bounded.refs = make_scratch<BuildRef>(objects.refs);
+    bounded.refs = make_scratch<BuildRef>(bounded.capacity);
     arrays.degenerate_triangles = add_triangles(objects, bounded.vertices, bounded.refs.get(), threads);
     arrays.normalisation.exact = bounded.vertices.exact;
     for (const FlatObject& flat : objects.objects) {
@@ -93,6 +98,10 @@ void allocate_slots(SceneArrays& arrays, int threads) {
     });
 }
 
+std::uint32_t leaf_count(std::uint64_t leaf) {
+    return static_cast<std::uint32_t>(leaf >> child_count_shift & child_count_mask) + 1;
+}
+
 void set_attributes(const FlatObject& flat, const FlatMaterials& materials, std::uint32_t triangle, std::uint32_t slot,
                     SceneArrays& arrays) {
     arrays.scene_id[slot] = flat.first_scene_id + triangle;
@@ -100,25 +109,42 @@ void set_attributes(const FlatObject& flat, const FlatMaterials& materials, std:
     arrays.material[slot] = material_of(materials, flat, triangle);
 }
 
-void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const FlatObjects& objects, const Bounded& bounded,
-               const FlatMaterials& materials, SceneArrays& arrays) {
-    const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & child_kind_mask);
-    const std::uint32_t count = static_cast<std::uint32_t>(leaf >> child_count_shift & child_count_mask) + 1;
-    const auto slot = static_cast<std::uint32_t>(leaf);
-    const bool is_triangle = kind == PrimitiveKind::triangle;
+/// What leaves are filled from.
+struct Sources {
+    const FlatObjects& objects;
+    const Bounded& bounded;
+    const FlatMaterials& materials;
+    const BvhTree& tree;
+};
+
+void fill_triangles(std::uint64_t leaf, const BuildRef* refs, const Sources& sources, SceneArrays& arrays) {
+    const bool is_shared = (leaf >> child_kind_shift & child_kind_mask) == leaf_of_shared;
+    const std::uint32_t count = leaf_count(leaf), first = static_cast<std::uint32_t>(leaf);
+    TriangleRecord* records[max_leaf_size] = {};
     for (std::uint32_t i = 0; i < count; ++i) {
-        set_attributes(objects.objects[object_of(refs[i])], materials, is_triangle ? refs[i].item : 0, slot + i, arrays);
-        if (kind == PrimitiveKind::sphere)
-            arrays.spheres[slot + i - arrays.first_slot[1]] = bounded.quadrics.spheres[refs[i].item];
+        const std::uint32_t slot = is_shared ? sources.tree.shared_slots[first + i] ^ first_here : first + i;
+        if ((slot & first_here) != 0) continue; // filled from the leaf in which it comes first
+        records[i] = &arrays.triangles[slot];
+        set_attributes(sources.objects.objects[object_of(refs[i])], sources.materials, refs[i].item, slot, arrays);
+    }
+    write_triangle_leaf(sources.objects, sources.bounded.vertices, refs, count,
+                        static_cast<std::uint32_t>(leaf >> child_block_shift & child_block_mask), arrays.arena.get(), records);
+}
+
+void fill_leaf(std::uint64_t leaf, const BuildRef* refs, const Sources& sources, SceneArrays& arrays) {
+    const auto kind = static_cast<PrimitiveKind>(leaf >> child_kind_shift & child_kind_mask);
+    if (kind == PrimitiveKind::triangle || (leaf >> child_kind_shift & child_kind_mask) == leaf_of_shared)
+        return fill_triangles(leaf, refs, sources, arrays);
+    const Quadrics& quadrics = sources.bounded.quadrics;
+    const auto slot = static_cast<std::uint32_t>(leaf);
+    for (std::uint32_t i = 0; i < leaf_count(leaf); ++i) {
+        set_attributes(sources.objects.objects[object_of(refs[i])], sources.materials, 0, slot + i, arrays);
+        if (kind == PrimitiveKind::sphere) arrays.spheres[slot + i - arrays.first_slot[1]] = quadrics.spheres[refs[i].item];
         if (kind >= PrimitiveKind::ellipsoid && kind < PrimitiveKind::plane) {
-            arrays.affines[slot + i - arrays.first_slot[2]] = bounded.quadrics.affines[refs[i].item];
-            arrays.affine_shading[slot + i - arrays.first_slot[2]] = bounded.quadrics.affine_shading[refs[i].item];
+            arrays.affines[slot + i - arrays.first_slot[2]] = quadrics.affines[refs[i].item];
+            arrays.affine_shading[slot + i - arrays.first_slot[2]] = quadrics.affine_shading[refs[i].item];
         }
     }
-    if (is_triangle)
-        write_triangle_leaf(objects, bounded.vertices, refs, count,
-                            static_cast<std::uint32_t>(leaf >> child_block_shift & child_block_mask), arrays.arena.get(),
-                            &arrays.triangles[slot]);
 }
 
 void add_planes(const FlatObjects& objects, const FlatMaterials& materials, SceneArrays& arrays) {
@@ -149,12 +175,16 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     arrays.materials = materials.records;
     arrays.features |= material_features(arrays.materials);
     flatten_lights(scene, settings, arrays);
-    const Bounded bounded = bake(objects, arrays, threads);
+    const bool spatial = settings.bvh == BvhMode::quality;
+    const Bounded bounded = bake(objects, spatial, arrays, threads);
     number_slots(bounded, objects, settings.planes, arrays);
     arrays.bake_seconds = seconds_since(start);
 
     const auto build_start = Clock::now();
-    BvhTree tree = build_bvh(bounded.refs.get(), bounded.count, arrays.first_slot, threads);
+    const SpatialRoom room{[&](const BuildRef& ref) { return corners_of(objects, bounded.vertices, ref); },
+                           [&](const BuildRef& ref) { return objects.objects[object_of(ref)].first_ref + ref.item; },
+                           objects.refs, bounded.capacity};
+    BvhTree tree = build_bvh(bounded.refs.get(), bounded.count, arrays.first_slot, spatial ? &room : nullptr, threads);
     arrays.arena = std::move(tree.arena);
     arrays.arena_bytes = tree.arena_bytes;
     arrays.leaves = std::move(tree.leaves);
@@ -164,10 +194,12 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
 
     const auto fill_start = Clock::now();
     allocate_slots(arrays, threads);
+    const Sources sources{objects, bounded, materials, tree};
+    for (const std::uint32_t slot : tree.shared_slots) arrays.shared_slots.push_back(slot & ~first_here);
     constexpr std::size_t piece = 1024;
     parallel_for(threads, piece_count(arrays.leaves.size(), piece), [&](std::size_t p) {
         for (std::size_t i = p * piece; i < std::min(arrays.leaves.size(), (p + 1) * piece); ++i)
-            fill_leaf(arrays.leaves[i], bounded.refs.get() + tree.leaf_first_ref[i], objects, bounded, materials, arrays);
+            fill_leaf(arrays.leaves[i], bounded.refs.get() + tree.leaf_first_ref[i], sources, arrays);
     });
     if (settings.planes) add_planes(objects, materials, arrays);
     arrays.bake_seconds += seconds_since(fill_start);

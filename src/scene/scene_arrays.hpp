@@ -43,6 +43,7 @@ struct SceneArrays {
     std::vector<std::uint32_t> scene_id;
     std::vector<std::uint32_t> object;
     std::vector<std::uint32_t> material;
+    std::vector<std::uint32_t> shared_slots;
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
     std::uint32_t first_slot[primitive_kind_count + 1] = {};

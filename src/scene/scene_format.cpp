@@ -64,6 +64,7 @@ constexpr KeySpec camera_keys[] = {{.name = "field", .range = {.low = 0, .high =
 
 // The order of the words is that of the enumerations.
 constexpr std::array<std::string_view, 4> anti_alias_modes{"off", "cross", "grid", "edge"};
+constexpr std::array<std::string_view, 3> bvh_modes{"off", "default", "quality"};
 constexpr std::array<std::string_view, 2> precisions{"balanced", "reference"};
 
 constexpr KeySpec anti_aliasing_keys[] = {{.name = "mode", .kind = choice, .required = true, .choices = anti_alias_modes},
@@ -81,7 +82,7 @@ constexpr KeySpec render_keys[] = {switch_key("ambient"),
                                    switch_key("refraction"),
                                    switch_key("schlick"),
                                    switch_key("planes"),
-                                   switch_key("bvh"),
+                                   {.name = "bvh", .kind = switch_or_choice, .choices = bvh_modes},
                                    {.name = "anti_aliasing", .kind = block},
                                    {.name = "soft_shadows", .kind = whole, .range = {.low = 0, .high = 1024}},
                                    {.name = "depth", .kind = whole, .range = {.low = 0, .high = 1024}},
@@ -229,6 +230,12 @@ std::string describe(const KeySpec& key) {
     case choice: {
         std::string out = key.choices.size() == 1 ? "" : "one of ";
         for (const std::string_view word : key.choices) out.append(out.ends_with('`') ? ", `" : "`").append(word).append("`");
+        return out;
+    }
+    case switch_or_choice: {
+        std::string out = "true, false";
+        for (const std::string_view word : key.choices)
+            out.append(word == key.choices.back() ? " or `" : ", `").append(word).append("`");
         return out;
     }
     case numbers:

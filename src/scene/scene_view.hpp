@@ -39,13 +39,17 @@ inline constexpr std::uint64_t child_kind_mask = 7;
 inline constexpr std::uint64_t child_count_mask = 7;
 inline constexpr std::uint64_t child_block_mask = 0x1ffffff;
 inline constexpr int max_leaf_size = 8;
+
+/// Kind of a leaf of triangles some of which stand in other leaves as well: instead of a slot, the word gives the place in
+/// SceneView::shared_slots where the slot of each is found. Only `--bvh quality` makes such leaves.
+inline constexpr std::uint32_t leaf_of_shared = 7;
 inline constexpr int max_bvh_depth = 64; ///< levels of nodes; a traversal stack needs 7 * max_bvh_depth + 1 entries
 
 // A triangle leaf block of n triangles starts on a 64-byte boundary and has 9 rows of n floats: v0.x v0.y v0.z v1.x .. v2.z.
 // Reading 8 floats from any row start stays inside the arena.
 
 struct TriangleRecord {
-    float normal[3];    ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
+    float normal[3];     ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
     std::uint32_t block; ///< offset in 64-byte units << 6 | (n - 1) << 3 | lane
 };
 
@@ -113,23 +117,24 @@ inline constexpr std::uint32_t feature_refraction = 1u << 11; ///< a transmissiv
 inline constexpr std::uint32_t feature_soft_lights = 1u << 12;
 
 struct SceneView {
-    const unsigned char* arena;    ///< nodes and triangle blocks; the root node, if any, is at offset 0
-    const std::uint64_t* leaves;   ///< every leaf as a child word, in arena order
+    const unsigned char* arena;  ///< nodes and triangle blocks; the root node, if any, is at offset 0
+    const std::uint64_t* leaves; ///< every leaf as a child word, in arena order
     const TriangleRecord* triangles;
     const SphereRecord* spheres;
-    const AffineRecord* affines;                ///< ellipsoids, cylinders, cones, open cones
-    const AffineShadingRecord* affine_shading;  ///< as `affines`
+    const AffineRecord* affines;               ///< ellipsoids, cylinders, cones, open cones
+    const AffineShadingRecord* affine_shading; ///< as `affines`
     const PlaneRecord* planes;
-    const std::uint32_t* scene_id;  ///< per slot: objects in file order, triangles in mesh order before any was dropped
-    const std::uint32_t* object;    ///< per slot: index of the object in the file
-    const std::uint32_t* material;  ///< per slot
+    const std::uint32_t* shared_slots; ///< of the triangles in leaves of kind leaf_of_shared
+    const std::uint32_t* scene_id;     ///< per slot: objects in file order, triangles in mesh order before any was dropped
+    const std::uint32_t* object;       ///< per slot: index of the object in the file
+    const std::uint32_t* material;     ///< per slot
     const MaterialRecord* materials;
     const LightRecord* lights;
     std::uint32_t first_slot[primitive_kind_count + 1]; ///< by PrimitiveKind; the last is the number of slots
-    std::uint32_t leaf_count; ///< 0: no bounded primitive, no node
+    std::uint32_t leaf_count;                           ///< 0: no bounded primitive, no node
     std::uint32_t light_count;
     std::uint32_t features; ///< feature_* bits
-    float ambient[3];    ///< sum of the ambient lights
+    float ambient[3];       ///< sum of the ambient lights
     float background[3];
     float max_coordinate; ///< largest |coordinate| of the root's boxes
 };

@@ -138,6 +138,8 @@ TEST_CASE("every switch changes the picture, the same from scene and command lin
         {R"("schlick": true)", {"--schlick"}, {"--no-schlick"}},
         {R"("planes": false)", {"--no-planes"}, {"--planes"}},
         {R"("bvh": false)", {"--no-bvh"}, {"--bvh"}, {}, false},
+        {R"("bvh": "off")", {"--bvh", "off"}, {"--bvh", "default"}, {}, false},
+        {R"("bvh": "quality")", {"--bvh", "quality"}, {"--bvh"}, {}, false},
         {R"("depth": 1)", {"--depth", "1"}, {"--depth", "8"}},
         {R"("cutoff": 0.5)", {"--cutoff", "0.5"}, {"--cutoff", "0"}},
         {R"("soft_shadows": 4)", {"--soft-shadows", "4"}, {"--soft-shadows", "0"}},

@@ -284,6 +284,47 @@ TEST_CASE("what lies four offsets above a surface is seen by every ray from it")
     CHECK(widest < 2e-5);
 }
 
+TEST_CASE("a triangle in several leaves is hit by its own rays in none of them") {
+    Lottery random(7);
+    const FlushDenormals flush;
+    std::uint64_t own = 0, of_parts = 0;
+    for (int n = 0; n < cases(20); ++n) {
+        Mesh mesh;
+        for (std::uint32_t i = 0; i < 300; ++i) { // a few across many small ones
+            const double length = i % 10 == 0 ? 2 : 0.1;
+            const glm::dvec3 p = direction(random) * (i % 10 == 0 ? 1.0 : random.uniform(0, 1));
+            mesh.positions.insert(mesh.positions.end(), {p, p + direction(random) * length, p + direction(random) * length});
+            mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        SceneDescription description;
+        description.objects.push_back({mesh, {}, {}, ""});
+        RenderSettings settings;
+        settings.bvh = BvhMode::quality;
+        const SceneArrays arrays = flatten(description, settings, 1);
+        const SceneView scene = view(arrays);
+        std::vector<int> parts(arrays.triangles.size(), 1);
+        for (const std::uint32_t slot : arrays.shared_slots) ++parts[slot];
+        const auto scratch = std::make_unique<TraceScratch<F>>();
+        for (int k = 0; k < 8; ++k) { // packets, and rays that go alone
+            Batch rays;
+            const glm::dvec3 eye = direction(random) * 3.0, spread = glm::dvec3(k < 4 ? 0.1 : 2.0);
+            for (std::uint32_t i = 0; i < batch; ++i)
+                rays.set(i, eye + direction(random) * spread, direction(random) * 0.5 - eye);
+            rays.trace_in<Query::closest>(scene, *scratch);
+            const std::vector<std::int32_t> first = rays.slot;
+            for (std::uint32_t i = 0; i < batch; ++i) rays.source[i] = first[i] < 0 ? no_source : source_outward(first[i]);
+            rays.trace_in<Query::closest>(scene, *scratch);
+            for (std::uint32_t i = 0; i < batch; ++i) {
+                if (first[i] < 0) continue;
+                own += rays.slot[i] == first[i];
+                of_parts += parts[static_cast<std::size_t>(first[i])] > 1;
+            }
+        }
+    }
+    CHECK(own == 0);
+    CHECK(of_parts > 100);
+}
+
 TEST_CASE("a disc far thinner than it is far away: the cap on the ray's side is met") {
     const FlushDenormals flush;
     for (const double thickness : {1e-2, 1e-5, 1e-8}) {

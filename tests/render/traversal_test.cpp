@@ -184,6 +184,36 @@ TEST_CASE("the tree finds what testing every primitive finds: stretched and shea
     CHECK(tally.hits > tally.rays / 20);
 }
 
+TEST_CASE("spatial splits change no hit: random scenes and needles, rays aimed at edges and vertices") {
+    Random random(8);
+    Tally tally;
+    int split = 0;
+    for (int n = 0; n < cases(300); ++n) {
+        SceneDescription scene = random_scene(random, 1 + random.below(60));
+        if (n % 3 != 0) scene.objects.push_back({needles(random, 20 + random.below(300)), {}, {}, ""});
+        const SceneArrays plain = flatten(scene, RenderSettings{}, 1);
+        RenderSettings quality;
+        quality.bvh = BvhMode::quality;
+        const SceneArrays arrays = flatten(scene, quality, 1);
+        split += arrays.shared_slots.empty() ? 0 : 1;
+        for (int batch = 0; batch < 3; ++batch) {
+            const Rays rays = random_rays(random, plain);
+            REQUIRE(check_all(arrays, rays, tally) == "");
+            const Hits a = ask(scalar_kernels(), view(plain), rays, Ask::closest, true);
+            const Hits b = ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                REQUIRE(bits_of(a.t[i]) == bits_of(b.t[i]));
+                REQUIRE((a.slot[i] < 0) == (b.slot[i] < 0));
+                if (a.slot[i] >= 0)
+                    REQUIRE(plain.scene_id[static_cast<std::size_t>(a.slot[i])] ==
+                            arrays.scene_id[static_cast<std::size_t>(b.slot[i])]);
+            }
+        }
+    }
+    CHECK(split > cases(300) / 5);
+    CHECK(tally.hits > tally.rays / 20);
+}
+
 TEST_CASE("coincident primitives: the smaller scene id is hit, whatever the tree, packet and ISA") {
     Random random(5);
     Tally tally;

@@ -144,15 +144,27 @@ SceneDescription scaled_scene(SceneDescription scene, int k) {
     return scene;
 }
 
+Mesh needles(Random& random, int count) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 p = random.point(1);
+        const double width = std::exp(random.uniform(-9, 0));
+        triangles.push_back({p, p + random.direction() * random.uniform(0.2, 2), p + random.direction() * width});
+    }
+    return triangle_mesh(triangles);
+}
+
 namespace {
 
 struct Walk {
     const SceneArrays& arrays;
     std::string fault{};
     std::vector<int> seen{};
+    std::vector<std::vector<std::array<float, 6>>> parts{}; ///< of triangles that may be split: boxes, by slot
     std::vector<std::uint64_t> leaves{};
     std::uint32_t next_slot[primitive_kind_count] = {};
     std::size_t next_unit = 0;
+    std::uint32_t next_shared = 0;
     std::uint32_t nodes = 0;
     int depth = 0;
 
@@ -189,15 +201,74 @@ struct Walk {
         }
     }
 
+    glm::dvec3 vertex(std::uint32_t record, std::uint32_t v) const {
+        const std::uint32_t lane = record & 7u, n = (record >> 3 & 7u) + 1;
+        const auto* rows = reinterpret_cast<const float*>(arrays.arena.get() + std::size_t{record >> 6} * 64) + lane;
+        return {rows[(3 * v) * n], rows[(3 * v + 1) * n], rows[(3 * v + 2) * n]};
+    }
+
     void triangle(const Bounds& box, std::uint64_t word, std::uint32_t lane, std::uint32_t n, std::uint32_t slot) {
         const auto block = static_cast<std::uint32_t>(word >> child_block_shift & 0x1ffffffu);
-        const auto* rows = reinterpret_cast<const float*>(arrays.arena.get() + std::size_t{block} * 64);
-        for (std::uint32_t v = 0; v < 3; ++v)
-            inside(box, {rows[(3 * v) * n + lane], rows[(3 * v + 1) * n + lane], rows[(3 * v + 2) * n + lane]}, "a vertex");
-        if (arrays.triangles[slot].block != (block << 6 | (n - 1) << 3 | lane))
-            fail("a triangle's record does not point to its lane");
+        const std::uint32_t record = block << 6 | (n - 1) << 3 | lane;
+        if (arrays.shared_slots.empty()) {
+            for (std::uint32_t v = 0; v < 3; ++v) inside(box, vertex(record, v), "a vertex");
+        } else {
+            parts.resize(arrays.first_slot[1]);
+            std::array<float, 6> part{};
+            for (std::size_t i = 0; i < 3; ++i)
+                part[i] = static_cast<float>(box.lo[i]), part[3 + i] = static_cast<float>(box.hi[i]);
+            parts[slot].push_back(part);
+            for (std::uint32_t v = 0; v < 3; ++v)
+                if (vertex(record, v) != vertex(arrays.triangles[slot].block, v)) fail("a part of another triangle");
+        }
+        if (seen[slot] == 1 && arrays.triangles[slot].block != record)
+            fail("a triangle's record does not point to its first lane");
         if (std::size_t{block} * 64 + (8 * n + 8) * 4 > arrays.arena_bytes)
             fail("8 floats of the last row lie outside the arena");
+    }
+
+    /// Every point of a split triangle lies in one of its boxes: tried at the corners and at random, on the edges and between.
+    void check_parts() {
+        Random random(7);
+        for (std::uint32_t slot = 0; slot < parts.size(); ++slot)
+            for (int i = 0; i < 40; ++i) {
+                double b[3] = {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+                if (i < 20) b[i % 3] = 0;
+                if (i < 3) b[0] = i == 0, b[1] = i == 1, b[2] = i == 2;
+                glm::dvec3 p(0);
+                for (std::uint32_t v = 0; v < 3; ++v)
+                    p += vertex(arrays.triangles[slot].block, v) * (b[v] / (b[0] + b[1] + b[2]));
+                const auto holds = [&](const std::array<float, 6>& part) {
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        const double x = p[static_cast<int>(k)];
+                        if (x < double{part[k]} - 1e-12 || x > double{part[3 + k]} + 1e-12) return false;
+                    }
+                    return true;
+                };
+                if (std::none_of(parts[slot].begin(), parts[slot].end(), holds))
+                    fail("a point of a triangle in none of its boxes");
+            }
+    }
+
+    /// Triangles some of which were seen before, at the next place of the table.
+    void shared_leaf(const Bounds& box, std::uint64_t word, std::uint32_t n, std::uint32_t first) {
+        if ((word >> child_block_shift & 0x1ffffffu) != next_unit) fail("a block is not where the order puts it");
+        next_unit += (36 * n + 63) / 64;
+        if (first != next_shared || first + n > arrays.shared_slots.size()) return fail("shared slots are not in leaf order");
+        next_shared += n;
+        std::uint32_t again = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t slot = arrays.shared_slots[first + i];
+            if (slot >= arrays.first_slot[1]) return fail("a slot of another kind");
+            for (std::uint32_t j = 0; j < i; ++j)
+                if (arrays.shared_slots[first + j] == slot) fail("a triangle twice in one leaf");
+            if (seen[slot]++ > 0)
+                ++again;
+            else if (slot != next_slot[0]++)
+                fail("slots are not in leaf order");
+            triangle(box, word, i, n, slot);
+        }
+        if (again == 0) fail("a leaf of shared triangles without one");
     }
 
     void leaf(const Bounds& box, std::uint64_t word) {
@@ -205,7 +276,9 @@ struct Walk {
         const auto kind = static_cast<int>(word >> child_kind_shift & 7u);
         const std::uint32_t n = static_cast<std::uint32_t>(word >> child_count_shift & 7u) + 1;
         const auto slot = static_cast<std::uint32_t>(word);
-        if (kind >= static_cast<int>(PrimitiveKind::plane)) return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(PrimitiveKind::plane) || kind > static_cast<int>(leaf_of_shared))
+            return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(leaf_of_shared)) return shared_leaf(box, word, n, slot);
         if (slot != next_slot[kind]) fail("slots are not in leaf order");
         next_slot[kind] = slot + n;
         if (kind == 0) {
@@ -275,9 +348,12 @@ std::string check_tree(const SceneArrays& arrays) {
     if (planes == 0) return arrays.leaves.empty() && arrays.arena_bytes == 0 ? "" : "a tree of nothing";
     if (arrays.leaves.empty()) return "no tree";
     walk.node({}, 0, 1);
+    walk.check_parts();
     if (!walk.fault.empty()) return walk.fault;
     for (std::uint32_t slot = 0; slot < planes; ++slot)
-        if (walk.seen[slot] != 1) return "slot " + std::to_string(slot) + " is in " + std::to_string(walk.seen[slot]) + " leaves";
+        if (walk.seen[slot] != 1 && (walk.seen[slot] == 0 || slot >= arrays.first_slot[1] || arrays.shared_slots.empty()))
+            return "slot " + std::to_string(slot) + " is in " + std::to_string(walk.seen[slot]) + " leaves";
+    if (walk.next_shared != arrays.shared_slots.size()) return "shared slots that no leaf uses";
     if (walk.next_unit * 64 != arrays.arena_bytes) return "the arena has a remainder";
     if (walk.depth > max_bvh_depth || walk.depth != arrays.quality.depth) return "depth";
     if (walk.nodes != arrays.quality.nodes || walk.leaves.size() != arrays.quality.leaves) return "counts of the quality report";
@@ -302,6 +378,7 @@ std::string difference(const SceneArrays& a, const SceneArrays& b) {
     if (!same(a.affines, b.affines)) return "affines";
     if (!same(a.affine_shading, b.affine_shading)) return "affine_shading";
     if (!same(a.planes, b.planes)) return "planes";
+    if (!same(a.shared_slots, b.shared_slots)) return "shared_slots";
     if (!same(a.scene_id, b.scene_id) || !same(a.object, b.object) || !same(a.material, b.material)) return "attributes";
     if (!same(a.materials, b.materials)) return "materials";
     if (!same(a.lights, b.lights)) return "lights";

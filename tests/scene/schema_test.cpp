@@ -186,6 +186,7 @@ std::string expected_type(const KeySpec& key) {
     case ValueKind::list:
         return "array";
     case ValueKind::choice:
+    case ValueKind::switch_or_choice:
     case ValueKind::block:
         break;
     }
@@ -264,6 +265,14 @@ TEST_CASE("the loader takes what the schema allows and refuses the rest") {
                 check_refused(*block, key, 0);
                 break;
             }
+            case ValueKind::switch_or_choice: {
+                Json values = {false, true};
+                for (const std::string_view word : key.choices) values.push_back(word);
+                CHECK(rule["enum"] == values);
+                for (const Json& value : values) check_accepted(*block, key, value);
+                for (const Json& value : {Json(0), Json("true"), Json(nullptr)}) check_refused(*block, key, value);
+                break;
+            }
             case ValueKind::block:
             case ValueKind::list:
                 check_refused(*block, key, 1);
@@ -318,6 +327,7 @@ TEST_CASE("defaults are those of the schema, and every key is read") {
                 other[name] = {64, 48};
                 break;
             case ValueKind::choice:
+            case ValueKind::switch_or_choice:
                 other[name] = std::string(key.choices.back());
                 break;
             case ValueKind::block:

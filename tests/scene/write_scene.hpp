@@ -93,6 +93,7 @@ inline Json to_json(const Camera& camera) {
 
 inline Json to_json(const RenderSettings& render) {
     static const char* const modes[] = {"off", "cross", "grid", "edge"};
+    static const char* const bvh_modes[] = {"off", "default", "quality"};
     static const char* const precisions[] = {"balanced", "reference"};
     const AntiAliasing& aa = render.anti_aliasing;
     return {{"ambient", render.ambient},
@@ -105,7 +106,7 @@ inline Json to_json(const RenderSettings& render) {
             {"refraction", render.refraction},
             {"schlick", render.schlick},
             {"planes", render.planes},
-            {"bvh", render.bvh},
+            {"bvh", bvh_modes[static_cast<int>(render.bvh)]},
             {"anti_aliasing",
              {{"mode", modes[static_cast<int>(aa.mode)]}, {"samples", aa.samples}, {"offset", aa.offset}, {"planes", aa.planes}}},
             {"soft_shadows", render.soft_shadows},

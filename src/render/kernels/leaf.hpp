@@ -108,15 +108,17 @@ LANECAST_INLINE TriangleVertices<F> vertices_of(const Axes& axes, const float* b
 /// The rays of one vector against a triangle given from their origins: whether some ray's t changed.
 template <Query query, FloatBatch F>
 LANECAST_INLINE bool hit_triangle(const SceneView& scene, Packet<F>& packet, std::uint32_t vector,
-                                  const TriangleVertices<F>& from_org, std::uint32_t slot) {
+                                  const TriangleVertices<F>& from_org, const TriangleSlots& slots, std::uint32_t lane) {
     const std::uint32_t i = vector * width<F>;
     const Vec3<F> shear{load<F>(packet.shear[0] + i), load<F>(packet.shear[1] + i), load<F>(packet.shear[2] + i)};
     const TriangleEdges<F> edges = triangle_edges(shear, from_org.a, from_org.b, from_org.c);
     if (none(edges.inside)) return false;
     const F t = triangle_t(shear.z, edges);
+    const Mask<F> nearer = edges.inside & (t <= load<F>(packet.t + i)) & (t >= load<F>(packet.tmin + i));
+    if (none(nearer)) return false; // few candidates are left: what follows is rare
+    const std::uint32_t slot = slots[lane];
     const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
-    const Mask<F> found = edges.inside & (t <= load<F>(packet.t + i)) &
-                          later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
+    const Mask<F> found = nearer & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
     if (none(found)) return false;
     take<query>(scene, packet, i, t, slot, found);
     return true;
@@ -129,19 +131,19 @@ LANECAST_INLINE TriangleVertices<F> less(const TriangleVertices<F>& vertices, co
 
 template <Query query, FloatBatch F>
 LANECAST_INLINE std::uint32_t hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                            std::uint32_t first_slot, std::uint32_t count) {
+                                            const TriangleSlots& slots, std::uint32_t count) {
     std::uint32_t changed = 0;
     for (std::uint32_t lane = 0; lane < count; ++lane) {
         const TriangleVertices<F> vertices = vertices_of<F>(packet.axes, block, count, lane);
         if (packet.common_origin) { // one subtraction for all
             const TriangleVertices<F> from_org = less(vertices, packet.origin_in_axes(0));
             for_each_bit(vectors, [&](std::uint32_t vector) {
-                if (hit_triangle<query>(scene, packet, vector, from_org, first_slot + lane)) changed |= 1u << vector;
+                if (hit_triangle<query>(scene, packet, vector, from_org, slots, lane)) changed |= 1u << vector;
             });
         } else {
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const TriangleVertices<F> from_org = less(vertices, packet.origin_in_axes(vector * width<F>));
-                if (hit_triangle<query>(scene, packet, vector, from_org, first_slot + lane)) changed |= 1u << vector;
+                if (hit_triangle<query>(scene, packet, vector, from_org, slots, lane)) changed |= 1u << vector;
             });
         }
     }
@@ -155,10 +157,10 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
     const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
     const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
-    if (kind == PrimitiveKind::triangle) {
+    if (is_of_triangles(child)) {
         const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
-        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot,
-                                    count);
+        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset),
+                                    triangle_slots(scene, child), count);
     }
     std::uint32_t changed = 0;
     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {

@@ -24,6 +24,23 @@ LANECAST_INLINE const PlaneRecord& plane_at(const SceneView& scene, std::uint32_
     return scene.planes[slot - first_slot(scene, PrimitiveKind::plane)];
 }
 
+/// The slots of a leaf's triangles. A triangle has one, in however many leaves it stands.
+struct TriangleSlots {
+    std::uint32_t first;
+    const std::uint32_t* shared; ///< null: they count up from `first`
+
+    [[nodiscard]] LANECAST_INLINE std::uint32_t operator[](std::uint32_t i) const { return shared ? shared[i] : first + i; }
+};
+LANECAST_INLINE bool is_of_triangles(std::uint64_t leaf) {
+    const auto kind = static_cast<std::uint32_t>((leaf >> child_kind_shift) & child_kind_mask);
+    return kind == static_cast<std::uint32_t>(PrimitiveKind::triangle) || kind == leaf_of_shared;
+}
+LANECAST_INLINE TriangleSlots triangle_slots(const SceneView& scene, std::uint64_t leaf) {
+    const auto first = static_cast<std::uint32_t>(leaf);
+    const bool shared = ((leaf >> child_kind_shift) & child_kind_mask) == leaf_of_shared;
+    return {first, shared ? scene.shared_slots + first : nullptr};
+}
+
 /// Lanes whose slot lies in [first, end).
 template <FloatBatch F>
 LANECAST_INLINE Mask<F> slot_between(Int<F> slot, std::uint32_t first, std::uint32_t end) {

@@ -44,7 +44,7 @@ LANECAST_INLINE void take(const SceneView& scene, SingleRay<F>& ray, Scalar<F> t
 
 template <Query query, FloatBatch F>
 LANECAST_INLINE void hit_triangles(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const float* block,
-                                   std::uint32_t first_slot, std::uint32_t count) {
+                                   const TriangleSlots& slots, std::uint32_t count) {
     using S = Scalar<F>;
     using E = Eight<F>;
     constexpr std::uint32_t W = width<E>;
@@ -64,7 +64,7 @@ LANECAST_INLINE void hit_triangles(const SceneView& scene, SingleRay<F>& ray, co
         alignas(64) S t_lanes[W];
         store(t_lanes, t);
         for_each_bit(bits(inside & (t <= E(ray.t)) & (t >= E(ray.tmin))), [&](std::uint32_t lane) {
-            const std::uint32_t slot = first_slot + c + lane;
+            const std::uint32_t slot = slots[c + lane];
             const S t_lane = t_lanes[lane];
             if (t_lane > ray.t || !later<query>(scene, ray, t_lane, slot)) return;
             if (ray.source == source_outward(static_cast<std::int32_t>(slot))) return;
@@ -106,9 +106,10 @@ LANECAST_INLINE void hit_leaf(const SceneView& scene, SingleRay<F>& ray, const A
     const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
     const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
-    if (kind == PrimitiveKind::triangle) {
+    if (is_of_triangles(child)) {
         const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
-        hit_triangles<query>(scene, ray, axes, reinterpret_cast<const float*>(scene.arena + offset), first_slot, count);
+        hit_triangles<query>(scene, ray, axes, reinterpret_cast<const float*>(scene.arena + offset), triangle_slots(scene, child),
+                             count);
     } else {
         for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) hit_quadric<query>(scene, ray, kind, slot);
     }
