@@ -1,11 +1,16 @@
 # `lanecast bench`. Embree is an optional peer of the program, never of the library: 4 if it is there, else 3.
 target_sources(lanecast PRIVATE
+  cli/bench/agreement.cpp
   cli/bench/bench.cpp
   cli/bench/bench_mesh.cpp
+  cli/bench/calls.cpp
+  cli/bench/frames.cpp
   cli/bench/measure.cpp
   cli/bench/ours.cpp
   cli/bench/procedural.cpp
   cli/bench/ray_sets.cpp
+  cli/bench/report_json.cpp
+  cli/bench/report_svg.cpp
   cli/bench/report_text.cpp
 )
 find_package(embree 4 QUIET)
@@ -19,8 +24,4 @@ if(embree_FOUND)
 else()
   target_sources(lanecast PRIVATE cli/bench/no_embree.cpp)
 endif()
-set_source_files_properties(cli/bench/embree.cpp cli/bench/measure.cpp cli/bench/ours.cpp PROPERTIES COMPILE_OPTIONS -O3)
-execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} describe --always --dirty OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
-  ERROR_QUIET)
-set_source_files_properties(cli/bench/bench.cpp PROPERTIES COMPILE_DEFINITIONS
-  "LANECAST_COMPILER=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}\";LANECAST_COMMIT=\"${commit}\"")
+set_source_files_properties(cli/bench/calls.cpp cli/bench/embree.cpp cli/bench/measure.cpp cli/bench/ours.cpp PROPERTIES COMPILE_OPTIONS -O3)

@@ -1,5 +1,7 @@
 // lanecast bench: rays per second, beside Embree where it was found.
 
+#include "cli/bench/calls.hpp"
+#include "cli/bench/frames.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/commands.hpp"
 #include "cli/parse_value.hpp"
@@ -10,7 +12,6 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -20,22 +21,29 @@ namespace {
 using namespace bench;
 
 struct BenchRequest {
-    std::string mesh = "flake";
+    std::string mesh;
+    std::string frames;         ///< a scene; instead of a mesh
     std::vector<double> camera; ///< position, look_at, and perhaps the field
     std::vector<double> light;
+    bool z_up = false;
     bool no_ground = false;
     bool no_peer = false;
+    bool calls = false;
     std::vector<std::string> kinds, isas, precisions{"balanced"};
     std::vector<int> threads{1};
     std::size_t rays = 262144;
+    std::size_t check = 65536;
     int repetitions = 7;
+    std::string json, plot, commit = "unknown";
+    std::string options; ///< as given
 };
 
 BenchMesh prepare_mesh(const BenchRequest& request) {
     BenchMesh mesh = make_mesh(request.mesh);
     if (!request.camera.empty()) {
         const auto& c = request.camera;
-        view_from(mesh, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c.size() > 6 ? c[6] : 60);
+        view_from(mesh, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c.size() > 6 ? c[6] : 60,
+                  request.z_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0));
     } else if (mesh.name != "hall") {
         view_from_outside(mesh, !request.no_ground);
     }
@@ -57,32 +65,70 @@ std::string cpu_name() {
     return "unknown CPU";
 }
 
-void measure_set(const Contenders& contenders, const RaySet& set, int threads, const BenchRequest& request, Report& report) {
+/// Adds the rows of a set. Agreement is checked once, not for every number of threads.
+void measure_set(const Contenders& contenders, const RaySet& set, int threads, const Truth* truth, const BenchRequest& request,
+                 Report& report) {
     const Measured measured = measure(contenders, set, request.repetitions, threads);
+    const std::size_t first = report.rows.size();
     for (std::size_t c = 0; c < contenders.size(); ++c) {
         const Contender& contender = *contenders[c];
-        report.rows.push_back({set.name,
-                               contender.library,
-                               contender.isa,
-                               contender.precision,
-                               contender.mode,
-                               contender.ours,
-                               threads,
-                               set.size(),
-                               measured.rates[c],
-                               {}});
+        Row row{set.name,
+                contender.library,
+                contender.isa,
+                contender.precision,
+                contender.mode,
+                contender.ours,
+                threads,
+                set.size(),
+                measured.rates[c],
+                {},
+                {}};
+        if (truth != nullptr) row.reference = compare_to_truth(measured.hits[c], *truth);
+        report.rows.push_back(row);
+    }
+    for (std::size_t c = 0; truth != nullptr && c < contenders.size(); ++c) {
+        Row& row = report.rows[first + c];
+        const Row* const peer = row.ours ? best_peer(report, row) : nullptr;
+        if (peer == nullptr) continue;
+        const auto place = static_cast<std::size_t>(peer - &report.rows[first]);
+        row.peer = compare_to_peer(measured.hits[c], measured.hits[place], *truth);
     }
 }
 
+void write_file(const std::string& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw Error(ExitCode::output, "cannot write " + file);
+}
+
+#ifdef __clang__
+constexpr const char* compiler = "clang++ " __clang_version__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
 int run(const BenchRequest& request) {
+    if (!request.frames.empty()) {
+        FramesRequest frames;
+        frames.scene = request.frames;
+        if (!request.isas.empty()) frames.isa = request.isas.front();
+        frames.pairs = std::max(1, request.repetitions);
+        print_result(measure_frames(frames));
+        return static_cast<int>(ExitCode::done);
+    }
+    if (request.mesh.empty()) throw Error(ExitCode::usage, "bench: needs a mesh, or --frames and a scene");
     const BenchMesh mesh = prepare_mesh(request);
     const std::vector<std::string> isas = request.isas.empty() ? all_isas() : request.isas;
     const int threads = *std::max_element(request.threads.begin(), request.threads.end());
+    if (request.calls) {
+        for (const std::string& isa : isas) print_result(measure_calls(mesh, isa, request.repetitions));
+        return static_cast<int>(ExitCode::done);
+    }
     Report report{.mesh = mesh.name,
                   .cpu = cpu_name(),
-                  .compiler = LANECAST_COMPILER,
-                  .commit = LANECAST_COMMIT,
-                  .options = {},
+                  .compiler = compiler,
+                  .commit = request.commit,
+                  .options = request.options,
                   .triangles = mesh.triangles(),
                   .repetitions = request.repetitions,
                   .builds = {},
@@ -96,8 +142,15 @@ int run(const BenchRequest& request) {
     const Scene scene(mesh.arrays(), {.threads = threads});
     const std::vector<RaySet> sets =
         make_ray_sets(mesh, scene, request.kinds.empty() ? ray_kinds() : request.kinds, request.rays);
+    const Scene reference(mesh.arrays(), {.threads = threads, .isa = "auto", .precision = "reference"});
     for (const int count : request.threads)
-        for (const RaySet& set : sets) measure_set(contenders, set, count, request, report);
+        for (const RaySet& set : sets) {
+            const bool check = request.check > 0 && count == request.threads.front();
+            const Truth truth = check ? find_truth(set, reference, mesh, request.check) : Truth{};
+            measure_set(contenders, set, count, check ? &truth : nullptr, request, report);
+        }
+    if (!request.json.empty()) write_file(request.json, json_report(report));
+    if (!request.plot.empty()) write_file(request.plot, svg_report(report));
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);
 }
@@ -107,13 +160,15 @@ int run(const BenchRequest& request) {
 void add_bench(CLI::App& app, Command& chosen) {
     CLI::App* const command = app.add_subcommand("bench", "Measure rays per second, beside Embree where it was found");
     const auto request = std::make_shared<BenchRequest>();
-    command->add_option("mesh", request->mesh, "flake, terrain, hall, or an OBJ or PLY file")->required()->type_name("MESH");
+    command->add_option("mesh", request->mesh, "flake, terrain, hall, or an OBJ or PLY file")->type_name("MESH");
     command->add_option("--camera", request->camera, "x y z of the position, of the point looked at, and the field in degrees")
         ->expected(6, 7)
         ->type_name("NUMBERS");
     command->add_option("--light", request->light, "x y z of the point light")->expected(3)->type_name("NUMBERS");
+    command->add_flag("--z-up", request->z_up, "With --camera: z is up, not y");
     command->add_flag("--no-ground", request->no_ground, "No square under a mesh seen from outside");
     command->add_flag("--no-peer", request->no_peer, "Without Embree");
+    command->add_flag("--calls", request->calls, "What a call costs, in streams of 1 to 262144 rays, instead");
     command->add_option("--kinds", request->kinds, "Rays: primary, aa, shadow, light, sun, mirror, diffuse; default: all")
         ->delimiter(',')
         ->check(CLI::IsMember(ray_kinds()))
@@ -123,7 +178,17 @@ void add_bench(CLI::App& app, Command& chosen) {
     command->add_option("--threads", request->threads, "Numbers of threads; default: 1")->delimiter(',')->type_name("LIST");
     command->add_option("--rays", request->rays, "Rays of each kind, about")->type_name("N");
     command->add_option("--repetitions", request->repetitions, "Of which the median counts")->type_name("N");
-    command->final_callback([&chosen, request] { chosen = [request] { return run(*request); }; });
+    command->add_option("--frames", request->frames, "Whole frames of a scene instead, 1920x1080, one thread and two in turn")
+        ->type_name("FILE");
+    command->add_option("--commit", request->commit, "For the record")->type_name("TEXT");
+    command->add_option("--check", request->check, "Rays of each kind whose hits are compared")->type_name("N");
+    command->add_option("--json", request->json, "Write everything as JSON")->type_name("FILE");
+    command->add_option("--plot", request->plot, "Write a plot as SVG")->type_name("FILE");
+    command->final_callback([&chosen, request, command] {
+        request->options = command->config_to_str();
+        std::replace(request->options.begin(), request->options.end(), '\n', ' ');
+        chosen = [request] { return run(*request); };
+    });
 }
 
 } // namespace lanecast

@@ -71,12 +71,13 @@ void view_from_outside(BenchMesh& mesh, bool ground) {
     for (const std::uint32_t corner : {0u, 2u, 1u, 0u, 3u, 2u}) mesh.indices.push_back(first + corner);
 }
 
-void view_from(BenchMesh& mesh, const glm::dvec3& position, const glm::dvec3& look_at, double field) {
+void view_from(BenchMesh& mesh, const glm::dvec3& position, const glm::dvec3& look_at, double field, const glm::dvec3& up) {
     mesh.view.position = position;
     mesh.view.look_at = look_at;
     mesh.view.field = field;
-    const glm::dvec3 centre = 0.5 * (mesh.lo + mesh.hi);
-    mesh.view.light = {centre.x, mesh.lo.y + 0.6 * (mesh.hi.y - mesh.lo.y), centre.z};
+    mesh.view.up = up;
+    mesh.view.light = 0.5 * (mesh.lo + mesh.hi) + up * (0.1 * glm::dot(up, mesh.hi - mesh.lo));
+    mesh.view.sun = up + glm::dvec3(0.4, 0, 0) + 0.3 * glm::cross(glm::dvec3(1, 0, 0), up);
 }
 
 } // namespace lanecast::bench

@@ -37,8 +37,9 @@ struct BenchMesh {
 
 /// A view of the whole bounding box from outside, the mesh standing on a square of two triangles if `ground`.
 void view_from_outside(BenchMesh& mesh, bool ground);
-/// The light goes to the middle of the box, at 60 % of its height.
-void view_from(BenchMesh& mesh, const glm::dvec3& position, const glm::dvec3& look_at, double field);
+/// A view from within; `up` is an axis. The light goes to the middle of the box, at 60 % of its height.
+void view_from(BenchMesh& mesh, const glm::dvec3& position, const glm::dvec3& look_at, double field,
+               const glm::dvec3& up = {0, 1, 0});
 
 // procedural.cpp
 [[nodiscard]] BenchMesh make_flake();   ///< a sphereflake, 1.03 million triangles

@@ -56,8 +56,9 @@ public:
     }
 
     [[nodiscard]] HitList hits() const override {
-        HitList list{t_, primitive_};
-        for (std::size_t i = 0; i < occluded_.size() && set_->query == Query::any; ++i)
+        if (set_->query == Query::closest) return {t_, primitive_};
+        HitList list{t_, {}};
+        for (std::size_t i = 0; i < list.t.size(); ++i)
             list.t[i] = occluded_[i] != 0 ? 0.0f : std::numeric_limits<float>::infinity();
         return list;
     }

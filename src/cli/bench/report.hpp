@@ -1,6 +1,7 @@
 #pragma once
 // What was measured, and how it is shown.
 
+#include "cli/bench/agreement.hpp"
 #include "cli/bench/measure.hpp"
 
 #include <cstddef>
@@ -9,15 +10,6 @@
 
 namespace lanecast::bench {
 
-/// Differences from another's hits: beyond 1e-3 of t.
-struct Disagreements {
-    std::size_t checked = 0;
-    std::size_t missed = 0, extra = 0, other_t = 0;
-    std::size_t ties = 0;  ///< the same t, another triangle; no disagreement
-    std::size_t edges = 0; ///< of all disagreements: the truth itself changes so within rounding of the ray
-    [[nodiscard]] std::size_t count() const { return missed + extra + other_t; }
-};
-
 /// One contender on one set.
 struct Row {
     std::string rays, library, isa, precision, mode;
@@ -25,7 +17,8 @@ struct Row {
     int threads = 1;
     std::size_t count = 0;
     Rate rate;
-    Disagreements reference; ///< against the double-precision reference
+    Disagreements reference; ///< with the double-precision reference
+    Disagreements peer;      ///< ours, with the best peer
 };
 
 struct Report {
@@ -40,5 +33,8 @@ struct Report {
 [[nodiscard]] const Row* best_peer(const Report& report, const Row& row);
 
 [[nodiscard]] std::string text_report(const Report& report);
+[[nodiscard]] std::string json_report(const Report& report);
+/// Ratios to the best peer as bars, or rates where there is none; a group per kind of rays, a colour per instruction set.
+[[nodiscard]] std::string svg_report(const Report& report);
 
 } // namespace lanecast::bench

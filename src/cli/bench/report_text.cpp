@@ -20,6 +20,11 @@ std::string spread(const Rate& rate) {
     return fixed(100 * (rate.high - rate.low) / (2 * std::max(rate.rays_per_second, 1.0)), 0) + "%";
 }
 
+/// "13-11 of 65536": rays that disagree, less those at edges.
+std::string disagreements(const Disagreements& d) {
+    return std::to_string(d.count()) + " - " + std::to_string(d.edges) + " / " + std::to_string(d.checked);
+}
+
 void add_row(const Report& report, const Row& row, std::string& text) {
     text += filled(row.rays, 10) + filled(row.isa, 8) + filled(row.precision, 11) + padded(std::to_string(row.threads), 3) +
             padded(short_count(static_cast<double>(row.count)), 9) + padded(fixed(row.rate.rays_per_second * 1e-6, 2), 9) +
@@ -27,10 +32,8 @@ void add_row(const Report& report, const Row& row, std::string& text) {
     if (const Row* peer = best_peer(report, row))
         text += padded(fixed(peer->rate.rays_per_second * 1e-6, 2), 9) + padded("+-" + spread(peer->rate), 7) + "  " +
                 filled(peer->mode, 11) + padded(fixed(row.rate.rays_per_second / peer->rate.rays_per_second, 2), 6);
-    const Disagreements& d = row.reference;
-    if (d.checked > 0)
-        text += "   " + std::to_string(d.count()) + " of " + std::to_string(d.checked) + " (" + std::to_string(d.edges) +
-                " at edges)";
+    text += "   " + disagreements(row.reference);
+    if (row.peer.checked > 0) text += "; " + disagreements(row.peer) + ", " + std::to_string(row.peer.upheld);
     text += "\n";
 }
 
@@ -60,10 +63,16 @@ std::string text_report(const Report& report) {
     text += "\n" + filled("rays", 10) + filled("isa", 8) + filled("precision", 11) + "thr" + padded("count", 9) +
             padded("Mray/s", 9) + padded("", 7);
     if (peer != report.rows.end()) text += padded("peer", 9) + padded("", 7) + "  " + filled("its mode", 11) + padded("ratio", 6);
-    text += "   disagreements with the reference\n";
+    text += "   disagreements\n";
     for (const Row& row : report.rows)
         if (row.ours) add_row(report, row, text);
-    if (peer != report.rows.end()) text += "\npeer: " + peer->library + ", the best of its modes\n";
+    text += "\ndisagreements: rays whose hit differs from that of the double-precision reference - those of them that move to "
+            "the other "
+            "answer within the rounding of the ray (edges) / checked";
+    if (peer != report.rows.end())
+        text += "; the same against the peer, and in how many of the rest the reference is on our side\npeer: " + peer->library +
+                ", the best of its modes on these rays; its rays are converted beforehand, ours within the time";
+    text += "\n";
     return text;
 }
 
