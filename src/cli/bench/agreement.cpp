@@ -45,8 +45,13 @@ bool same(float a, float b) { return a == b || std::abs(a - b) <= 1e-3f * std::m
 
 glm::dvec3 at(const std::vector<float> (&v)[3], std::size_t i) { return {v[0][i], v[1][i], v[2][i]}; }
 
-/// The truths of rays beside ray i, by the rounding of its origin and direction.
-std::vector<float> truths_beside(const Truth& truth, std::size_t i) {
+/// The truths of rays beside one, by the rounding of its origin and direction.
+struct Beside {
+    std::vector<float> t;
+    float near = infinity, far = -infinity;
+};
+
+Beside truths_beside(const Truth& truth, std::size_t i) {
     RaySet beside;
     beside.query = truth.set->query;
     beside.tmax = truth.set->tmax;
@@ -58,19 +63,27 @@ std::vector<float> truths_beside(const Truth& truth, std::size_t i) {
             beside.add(o + step * (size * truth.rounding), d);
             beside.add(o, d + step * (size * 2.4e-7 * length));
         }
-    return trace(*truth.reference, beside).t;
+    Beside truths;
+    truths.t = trace(*truth.reference, beside).t;
+    for (const float t : truths.t) {
+        truths.near = std::min(truths.near, t);
+        truths.far = std::max(truths.far, t);
+    }
+    return truths;
+}
+
+/// One of them; or between them where they are close, as for a ray that starts a few roundings above a surface.
+bool is_among(float t, const Beside& truths) {
+    if (t >= truths.near && t <= truths.far && truths.far <= 4 * truths.near) return true;
+    return std::any_of(truths.t.begin(), truths.t.end(), [&](float other) { return same(t, other); });
 }
 
 void compare_ray(float a, float b, float true_t, const Truth& truth, std::size_t i, Disagreements& found) {
     if (std::isinf(a) && std::isinf(b)) return;
     if (!std::isinf(a) && !std::isinf(b) && same(a, b)) return;
     ++(std::isinf(a) ? found.missed : std::isinf(b) ? found.extra : found.other_t);
-    bool like_a = false, like_b = false;
-    for (const float t : truths_beside(truth, i)) {
-        like_a = like_a || same(t, a);
-        like_b = like_b || same(t, b);
-    }
-    if (like_a && like_b)
+    const Beside truths = truths_beside(truth, i);
+    if (is_among(a, truths) && is_among(b, truths))
         ++found.edges;
     else if (same(a, true_t))
         ++found.upheld;
