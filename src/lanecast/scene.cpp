@@ -33,6 +33,7 @@ Precision precision_of(const std::string& name) {
     throw Error(ExitCode::usage, "precision '" + name + "' does not exist; expected balanced or reference");
 }
 
+/// Empty for a single object that is not mirrored: scene ids are its own numbering.
 std::vector<StreamObject> number_objects(const SceneDescription& description) {
     std::vector<StreamObject> objects;
     std::uint32_t first = 0;
@@ -41,6 +42,7 @@ std::vector<StreamObject> number_objects(const SceneDescription& description) {
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         first += mesh != nullptr ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1u;
     }
+    if (objects.size() == 1 && objects[0].mirrored == 0) objects.clear();
     return objects;
 }
 
@@ -104,7 +106,7 @@ Scene::~Scene() = default;
 void Scene::closest_hit(const RayArrays& rays, const HitArrays& hits) const noexcept {
     for_each_piece(rays, data_->units, [&](RayStream& stream, std::size_t begin) {
         stream.t = moved(hits.t, begin);
-        stream.objects = data_->objects.data();
+        stream.objects = data_->objects.empty() ? nullptr : data_->objects.data();
         stream.object = moved(hits.object, begin);
         stream.primitive = moved(hits.primitive, begin);
         stream.normal[0] = moved(hits.normal_x, begin);

@@ -130,7 +130,7 @@ struct RayStream {
     std::uint8_t* occluded;   ///< out, any_hit: 1 for a hit, 0 for a miss; may be null
 
     // Out, closest_hit: each may be null.
-    const StreamObject* objects; ///< by object; read where primitive, u or v is asked for
+    const StreamObject* objects; ///< by object; null: there is only one, not mirrored
     std::uint32_t* object;       ///< no_object for a miss
     std::uint32_t* primitive;    ///< in the object, as the caller numbered them; no_object for a miss
     float* normal[3];            ///< unit, points outside; all or none; 0 for a miss

@@ -10,19 +10,36 @@
 namespace lanecast::inline LANECAST_ISA {
 namespace detail {
 
-inline void write_names(const SceneView& scene, const RayStream& stream, std::uint32_t begin, std::uint32_t n,
-                        const std::int32_t* slot) {
-    std::uint32_t* const object = stream.object != nullptr ? stream.object + begin : nullptr;
-    std::uint32_t* const primitive = stream.primitive != nullptr ? stream.primitive + begin : nullptr;
+/// id_of(slot) for hits. Without a branch: slot 0 is looked up for a miss.
+template <class Id>
+LANECAST_INLINE void write_ids(std::uint32_t* to, const std::int32_t* slot, std::uint32_t n, Id&& id_of) {
+#pragma GCC ivdep
     for (std::uint32_t i = 0; i < n; ++i) {
-        if (slot[i] < 0) {
-            if (object != nullptr) object[i] = no_object;
-            if (primitive != nullptr) primitive[i] = no_object;
-            continue;
-        }
-        const std::uint32_t owner = scene.object[slot[i]];
-        if (object != nullptr) object[i] = owner;
-        if (primitive != nullptr) primitive[i] = scene.scene_id[slot[i]] - stream.objects[owner].first_scene_id;
+        const std::uint32_t id = id_of(slot[i] < 0 ? 0 : slot[i]);
+        to[i] = slot[i] < 0 ? no_object : id;
+    }
+}
+
+LANECAST_INLINE void write_names(const SceneView& scene, const RayStream& stream, std::uint32_t begin, std::uint32_t n,
+                                 const std::int32_t* slot) {
+    const bool empty = scene.first_slot[primitive_kind_count] == 0;
+    const std::uint32_t *const object = scene.object, *const scene_id = scene.scene_id;
+    const StreamObject* const objects = stream.objects;
+    if (stream.object != nullptr) {
+        std::uint32_t* const to = stream.object + begin;
+        if (empty || objects == nullptr)
+            write_ids(to, slot, n, [](std::int32_t) { return 0u; });
+        else
+            write_ids(to, slot, n, [=](std::int32_t s) { return object[s]; });
+    }
+    if (stream.primitive != nullptr) {
+        std::uint32_t* const to = stream.primitive + begin;
+        if (empty)
+            write_ids(to, slot, n, [](std::int32_t) { return 0u; });
+        else if (objects == nullptr)
+            write_ids(to, slot, n, [=](std::int32_t s) { return scene_id[s]; });
+        else
+            write_ids(to, slot, n, [=](std::int32_t s) { return scene_id[s] - objects[object[s]].first_scene_id; });
     }
 }
 
@@ -65,6 +82,7 @@ void write_attributes(const SceneView& scene, const RayStream& stream, std::uint
         if (stream.u == nullptr) continue;
         store_lanes(stream.u + begin + i, u, n - i);
         store_lanes(stream.v + begin + i, v, n - i);
+        if (stream.objects == nullptr) continue;
         for_each_bit(bits(triangles), [&](std::uint32_t lane) {
             if (stream.objects[scene.object[rays.slot[i + lane]]].mirrored == 0) return;
             const std::uint32_t k = begin + i + lane;
