@@ -40,9 +40,8 @@ struct BuildRow {
 void add_ours(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,
               const std::string& precision, int threads);
 
-/// Every mode worth trying at that instruction set. Does nothing where Embree was not found when we were built.
+/// Every mode of Embree worth trying at that instruction set. Does nothing where it is not there.
 void add_embree(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,
                 int threads);
-[[nodiscard]] std::string embree_version(); ///< empty: not there
 
 } // namespace lanecast::bench

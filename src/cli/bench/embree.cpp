@@ -267,7 +267,7 @@ void add_modes(Contenders& contenders, const std::shared_ptr<Tree>& tree, const 
     for (const bool coherent : {false, true}) {
         if (width == 1 && coherent) continue;
         auto contender = std::make_unique<Embree<width>>(tree, rays, coherent);
-        contender->library = "embree " + embree_version();
+        contender->library = "embree " RTC_VERSION_STRING;
         contender->isa = isa;
         contender->precision = "-";
         contender->mode = quality + ":" + std::to_string(width) + (coherent ? "c" : "");
@@ -277,14 +277,13 @@ void add_modes(Contenders& contenders, const std::shared_ptr<Tree>& tree, const 
 
 } // namespace
 
-std::string embree_version() { return RTC_VERSION_STRING; }
-
-void add_embree(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,
-                int threads) {
+extern "C" __attribute__((visibility("default"))) void lanecast_add_embree(Contenders& contenders, std::vector<BuildRow>& builds,
+                                                                           const BenchMesh& mesh, const std::string& isa,
+                                                                           int threads) {
     if (isa == "scalar") return;
     for (const bool high : {false, true}) {
         const std::string quality = high ? "high" : "medium";
-        BuildRow row{"embree " + embree_version(), isa, quality};
+        BuildRow row{"embree " RTC_VERSION_STRING, isa, quality};
         const auto tree = build_tree(mesh, isa, high, threads, row);
         builds.push_back(row);
         add_modes<1>(contenders, tree, isa, quality);
