@@ -168,7 +168,7 @@ void add_bench(CLI::App& app, Command& chosen) {
     command->add_flag("--z-up", request->z_up, "With --camera: z is up, not y");
     command->add_flag("--no-ground", request->no_ground, "No square under a mesh seen from outside");
     command->add_flag("--no-peer", request->no_peer, "Without Embree");
-    command->add_flag("--calls", request->calls, "What a call costs, in streams of 1 to 262144 rays, instead");
+    command->add_flag("--calls", request->calls, "What a call costs, in streams of 1 to 65536 rays, instead");
     command->add_option("--kinds", request->kinds, "Rays: primary, aa, shadow, light, sun, mirror, diffuse; default: all")
         ->delimiter(',')
         ->check(CLI::IsMember(ray_kinds()))

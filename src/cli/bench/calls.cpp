@@ -12,17 +12,19 @@
 namespace lanecast::bench {
 namespace {
 
-constexpr std::size_t lengths[] = {1, 16, 512, std::size_t{1} << 18};
+constexpr std::size_t lengths[] = {1, 16, 512, 65536};
 
 constexpr std::size_t piece = 8192; ///< rays whose calls are timed together, or one call if it is longer
 
-/// Seconds per ray of `call(begin, count)` over all rays in streams of `length`: the sum of the least time of each piece.
+constexpr std::size_t pieces = 4; ///< spread over the picture
+
+/// Seconds per ray of `call(begin, count)` in streams of `length`: the sum of the least time of each piece.
 double seconds_per_ray(std::size_t rays, std::size_t length, int repetitions,
                        const std::function<void(std::size_t, std::size_t)>& call) {
-    const std::size_t step = std::max(piece, length), traced = std::min(rays, std::max(length, 4 * piece));
+    const std::size_t size = std::min(std::max(piece, length), rays / pieces);
     double sum = 0;
-    for (std::size_t begin = 0; begin < traced; begin += step) {
-        const std::size_t end = std::min(traced, begin + step);
+    for (std::size_t k = 0; k < pieces; ++k) {
+        const std::size_t begin = k * (rays / pieces), end = begin + size;
         std::uint64_t least = ~0ull;
         for (int r = 0; r <= repetitions; ++r) {
             const std::uint64_t start = __builtin_ia32_rdtsc();
@@ -31,7 +33,7 @@ double seconds_per_ray(std::size_t rays, std::size_t length, int repetitions,
         }
         sum += static_cast<double>(least);
     }
-    return sum / ticks_per_second() / static_cast<double>(traced);
+    return sum / ticks_per_second() / static_cast<double>(pieces * size);
 }
 
 struct Outputs {
@@ -123,7 +125,7 @@ std::string measure_scene(const std::string& name, const MeshArrays& arrays, con
 
 std::string measure_calls(const BenchMesh& mesh, const std::string& isa, int repetitions) {
     const Scene scene(mesh.arrays());
-    const RaySet rays = make_ray_sets(mesh, scene, {"primary"}, lengths[3])[0];
+    const RaySet rays = make_ray_sets(mesh, scene, {"primary"}, pieces * lengths[3])[0];
     std::string text = "nanoseconds per ray, " + isa + ", in streams of" + std::string(12, ' ');
     for (const std::size_t length : lengths) {
         const std::string number = std::to_string(length);

@@ -1,5 +1,5 @@
 #pragma once
-// What a call costs beside the tracing: streams of 1 to a million rays through the library and through the kernels' own entry.
+// What a call costs beside the tracing: streams of 1 to 65536 rays through the library and through the kernels' own entry.
 
 #include "cli/bench/bench_mesh.hpp"
 
