@@ -48,10 +48,11 @@ BenchMesh make_mesh(const std::string& what) {
     else if (what == "terrain")
         mesh = make_terrain();
     else if (what == "hall")
-        return make_hall();
+        mesh = make_hall();
     else
         mesh = read_mesh(what);
     measure_bounds(mesh);
+    if (what == "hall") view_from(mesh, {2.5, 2.2, 8.2}, {54, 3.6, 10.5}, 60);
     return mesh;
 }
 

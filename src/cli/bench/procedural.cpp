@@ -180,9 +180,6 @@ BenchMesh make_hall() {
         return glm::dvec3(-3 + (length + 6) * i / 200, 9 + (12 - rib) * std::sin(angle),
                           width / 2 - (12 - rib) * std::cos(angle));
     });
-    mesh.lo = {-3, -0.02, -3};
-    mesh.hi = {length + 3, 21, width + 3};
-    view_from(mesh, {2.5, 2.2, 8.2}, {length, 3.6, 10.5}, 60);
     return mesh;
 }
 

@@ -32,7 +32,7 @@ void add_row(const Report& report, const Row& row, std::string& text) {
     if (const Row* peer = best_peer(report, row))
         text += padded(fixed(peer->rate.rays_per_second * 1e-6, 2), 9) + padded("+-" + spread(peer->rate), 7) + "  " +
                 filled(peer->mode, 11) + padded(fixed(row.rate.rays_per_second / peer->rate.rays_per_second, 2), 6);
-    text += "   " + disagreements(row.reference);
+    if (row.reference.checked > 0) text += "   " + disagreements(row.reference);
     if (row.peer.checked > 0) text += "; " + disagreements(row.peer) + ", " + std::to_string(row.peer.upheld);
     text += "\n";
 }
