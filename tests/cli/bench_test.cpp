@@ -177,7 +177,11 @@ TEST_CASE("rates are those of the contenders, whoever else runs") {
     REQUIRE(best_peer(report, report.rows[0]) != nullptr);
     CHECK(best_peer(report, report.rows[0])->mode == "fast");
     CHECK(json_report(report).find("\"ratio\": 1.5") != std::string::npos);
-    CHECK(svg_report(report).starts_with("<svg"));
+    const Drawing drawing = plot(report);
+    CHECK(svg_of(drawing).starts_with("<svg"));
+    const Picture8 picture = picture_of(drawing);
+    CHECK(picture.rgb.size() == 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    CHECK(std::count(picture.rgb.begin(), picture.rgb.end(), 255) < static_cast<std::ptrdiff_t>(picture.rgb.size()) - 1000);
 }
 
 } // namespace

@@ -4,6 +4,7 @@ target_sources(lanecast PRIVATE
   cli/bench/bench.cpp
   cli/bench/bench_mesh.cpp
   cli/bench/calls.cpp
+  cli/bench/drawing.cpp
   cli/bench/frames.cpp
   cli/bench/measure.cpp
   cli/bench/ours.cpp
@@ -11,7 +12,7 @@ target_sources(lanecast PRIVATE
   cli/bench/procedural.cpp
   cli/bench/ray_sets.cpp
   cli/bench/report_json.cpp
-  cli/bench/report_svg.cpp
+  cli/bench/report_plot.cpp
   cli/bench/report_text.cpp
 )
 target_link_libraries(lanecast PRIVATE ${CMAKE_DL_LIBS})

@@ -10,6 +10,7 @@
 #include "scene/error.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -34,7 +35,8 @@ struct BenchRequest {
     std::size_t rays = 262144;
     std::size_t check = 65536;
     int repetitions = 7;
-    std::string json, plot, commit = "unknown";
+    std::vector<std::string> plots;
+    std::string json, commit = "unknown";
     std::string options; ///< as given
 };
 
@@ -150,7 +152,12 @@ int run(const BenchRequest& request) {
             measure_set(contenders, set, count, check ? &truth : nullptr, request, report);
         }
     if (!request.json.empty()) write_file(request.json, json_report(report));
-    if (!request.plot.empty()) write_file(request.plot, svg_report(report));
+    for (const std::string& file : request.plots) {
+        if (std::filesystem::path(file).extension() == ".png")
+            write_png(std::filesystem::path(file), picture_of(plot(report)));
+        else
+            write_file(file, svg_of(plot(report)));
+    }
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);
 }
@@ -183,7 +190,7 @@ void add_bench(CLI::App& app, Command& chosen) {
     command->add_option("--commit", request->commit, "For the record")->type_name("TEXT");
     command->add_option("--check", request->check, "Rays of each kind whose hits are compared")->type_name("N");
     command->add_option("--json", request->json, "Write everything as JSON")->type_name("FILE");
-    command->add_option("--plot", request->plot, "Write a plot as SVG")->type_name("FILE");
+    command->add_option("--plot", request->plots, "Write a plot: SVG, or PNG by its ending")->delimiter(',')->type_name("LIST");
     command->final_callback([&chosen, request, command] {
         request->options = command->config_to_str();
         std::replace(request->options.begin(), request->options.end(), '\n', ' ');

@@ -2,6 +2,7 @@
 // What was measured, and how it is shown.
 
 #include "cli/bench/agreement.hpp"
+#include "cli/bench/drawing.hpp"
 #include "cli/bench/measure.hpp"
 
 #include <cstddef>
@@ -35,6 +36,6 @@ struct Report {
 [[nodiscard]] std::string text_report(const Report& report);
 [[nodiscard]] std::string json_report(const Report& report);
 /// Ratios to the best peer as bars, or rates where there is none; a group per kind of rays, a colour per instruction set.
-[[nodiscard]] std::string svg_report(const Report& report);
+[[nodiscard]] Drawing plot(const Report& report);
 
 } // namespace lanecast::bench

@@ -17,18 +17,7 @@ struct Group {
 };
 
 constexpr const char* colours[] = {"#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb"};
-constexpr double left = 60, top = 60, height = 300, bar = 14, gap = 26;
-
-std::string number(double value) { return fixed(value, 1); }
-
-std::string text_at(double x, double y, const std::string& text, const char* anchor = "middle", int size = 12) {
-    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\" font-size=\"" +
-           std::to_string(size) + "\">" + text + "</text>\n";
-}
-std::string line_at(double x0, double y0, double x1, double y1, const char* colour) {
-    return "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) + "\" y2=\"" + number(y1) +
-           "\" stroke=\"" + colour + "\"/>\n";
-}
+constexpr double left = 60, top = 60, height = 300, bar = 14, gap = 26, legend = 180, title = 640;
 
 std::vector<Group> groups_of(const Report& report, bool ratios) {
     std::vector<Group> groups;
@@ -53,15 +42,9 @@ double grid_step(double largest) {
     return step;
 }
 
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-    return safe;
-}
-
 } // namespace
 
-std::string svg_report(const Report& report) {
+Drawing plot(const Report& report) {
     const bool ratios = std::any_of(report.rows.begin(), report.rows.end(), [](const Row& row) { return !row.ours; });
     const std::vector<Group> groups = groups_of(report, ratios);
     double largest = 1e-6, width = left;
@@ -73,44 +56,43 @@ std::string svg_report(const Report& report) {
             if (std::find(labels.begin(), labels.end(), b.label) == labels.end()) labels.push_back(b.label);
         }
     }
-    width = std::max(width + gap, left + 180 * static_cast<double>(labels.size()));
+    width = std::max(width + gap, left + std::max(legend * static_cast<double>(labels.size()), title));
     const auto y_of = [&](double value) { return top + height * (1 - value / (1.05 * largest)); };
 
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
-                      number(top + height + 70) +
-                      "\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    Drawing drawing{width, top + height + 70, {}, {}};
+    const auto line = [&](double x0, double y0, double x1, double y1, const char* colour) {
+        drawing.boxes.push_back({x0 - 0.5, y0 - 0.5, x1 - x0 + 1, y1 - y0 + 1, colour});
+    };
     const auto peer = std::find_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return !row.ours; });
-    svg += text_at(left, 22,
-                   escaped(report.mesh + (ratios ? ": rays per second over those of " + peer->library + ", its best mode"
-                                                 : ": million rays per second")),
-                   "start", 15);
-    svg += text_at(left, 42, escaped(report.cpu + ", " + report.compiler + ", " + report.commit), "start", 11);
+    drawing.labels.push_back({left, 22,
+                              report.mesh + (ratios ? ": rays per second over those of " + peer->library + ", its best mode"
+                                                    : ": million rays per second"),
+                              Anchor::start, 15});
+    drawing.labels.push_back({left, 42, report.cpu + ", " + report.compiler + ", " + report.commit, Anchor::start, 11});
     const double step = grid_step(largest);
     for (int i = 0; i * step <= largest * 1.05; ++i) {
-        svg += line_at(left, y_of(i * step), width - 10, y_of(i * step), "#dddddd");
-        svg += text_at(left - 6, y_of(i * step) + 4, fixed(i * step, step < 1 ? 1 : 0), "end");
+        line(left, y_of(i * step), width - 10, y_of(i * step), "#dddddd");
+        drawing.labels.push_back({left - 6, y_of(i * step) + 4, fixed(i * step, step < 1 ? 1 : 0), Anchor::end});
     }
-    if (ratios) svg += line_at(left, y_of(1), width - 10, y_of(1), "#000000");
+    if (ratios) line(left, y_of(1), width - 10, y_of(1), "#000000");
     double x = left + gap / 2;
     for (const Group& group : groups) {
         const double begin = x;
         for (const Bar& b : group.bars) {
             const auto colour = static_cast<std::size_t>(std::find(labels.begin(), labels.end(), b.label) - labels.begin());
-            svg += "<rect x=\"" + number(x) + "\" y=\"" + number(y_of(b.value)) + "\" width=\"" + number(bar - 2) +
-                   "\" height=\"" + number(y_of(0) - y_of(b.value)) + "\" fill=\"" + colours[colour % std::size(colours)] +
-                   "\"/>\n";
-            svg += line_at(x + bar / 2 - 1, y_of(b.low), x + bar / 2 - 1, y_of(b.high), "#444444");
+            drawing.boxes.push_back({x, y_of(b.value), bar - 2, y_of(0) - y_of(b.value), colours[colour % std::size(colours)]});
+            line(x + bar / 2 - 1, y_of(b.high), x + bar / 2 - 1, y_of(b.low), "#444444");
             x += bar;
         }
-        svg += text_at((begin + x) / 2, top + height + 18, group.rays);
+        drawing.labels.push_back({(begin + x) / 2, top + height + 18, group.rays});
         x += gap;
     }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const double place = left + 180 * static_cast<double>(i);
-        svg += "<rect x=\"" + number(place) + "\" y=\"" + number(top + height + 38) + "\" width=\"12\" height=\"12\" fill=\"" +
-               colours[i % std::size(colours)] + "\"/>\n" + text_at(place + 18, top + height + 49, labels[i], "start");
+        const double place = left + legend * static_cast<double>(i);
+        drawing.boxes.push_back({place, top + height + 38, 12, 12, colours[i % std::size(colours)]});
+        drawing.labels.push_back({place + 18, top + height + 49, labels[i], Anchor::start});
     }
-    return svg + "</svg>\n";
+    return drawing;
 }
 
 } // namespace lanecast::bench
