@@ -114,7 +114,7 @@ int run(const BenchRequest& request) {
         FramesRequest frames;
         frames.scene = request.frames;
         if (!request.isas.empty()) frames.isa = request.isas.front();
-        frames.pairs = std::max(1, request.repetitions);
+        frames.pairs = request.repetitions;
         print_result(measure_frames(frames));
         return static_cast<int>(ExitCode::done);
     }
@@ -182,9 +182,16 @@ void add_bench(CLI::App& app, Command& chosen) {
         ->type_name("LIST");
     command->add_option("--isa", request->isas, "Instruction sets; default: all but scalar")->delimiter(',')->type_name("LIST");
     command->add_option("--precision", request->precisions, "Precisions; default: balanced")->delimiter(',')->type_name("LIST");
-    command->add_option("--threads", request->threads, "Numbers of threads; default: 1")->delimiter(',')->type_name("LIST");
-    command->add_option("--rays", request->rays, "Rays of each kind, about")->type_name("N");
-    command->add_option("--repetitions", request->repetitions, "Of which the median counts")->type_name("N");
+    command->add_option("--threads", request->threads, "Numbers of threads; default: 1")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1024))
+        ->type_name("LIST");
+    command->add_option("--rays", request->rays, "Rays of each kind, about")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 24))
+        ->type_name("N");
+    command->add_option("--repetitions", request->repetitions, "Of which the median counts")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
     command->add_option("--frames", request->frames, "Whole frames of a scene instead, 1920x1080, one thread and two in turn")
         ->type_name("FILE");
     command->add_option("--commit", request->commit, "For the record")->type_name("TEXT");

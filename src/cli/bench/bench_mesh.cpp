@@ -2,6 +2,7 @@
 
 #include "lanecast/describe.hpp"
 #include "scene/error.hpp"
+#include "scene/mesh_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +25,10 @@ void measure_bounds(BenchMesh& mesh) {
 }
 
 BenchMesh read_mesh(const std::string& file) {
-    const SceneDescription scene = describe(std::filesystem::path(file));
-    const auto* source = scene.objects.size() == 1 ? std::get_if<Mesh>(&scene.objects[0].shape) : nullptr;
-    if (source == nullptr)
+    if (mesh_format(file) == MeshFormat::unknown)
         throw Error(ExitCode::usage, "bench: '" + file + "' is no mesh; expected flake, terrain, hall, an .obj or a .ply");
+    const SceneDescription scene = describe(std::filesystem::path(file));
+    const auto* const source = std::get_if<Mesh>(&scene.objects.at(0).shape);
     BenchMesh mesh;
     mesh.name = std::filesystem::path(file).stem().string();
     mesh.positions.reserve(source->positions.size() * 3);
