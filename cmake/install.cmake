@@ -1,11 +1,10 @@
-# cmake --install: the program, the static library, its headers, and find_package(lanecast).
+# cmake --install: the program, the static library, its one public header, and find_package(lanecast).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS lanecast_lib EXPORT lanecast_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS lanecast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY src/scene src/render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanecast
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "kernels" EXCLUDE)
+install(FILES src/lanecast/lanecast.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lanecast)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lanecast)
 configure_package_config_file(cmake/lanecast-config.cmake.in ${CMAKE_BINARY_DIR}/lanecast-config.cmake

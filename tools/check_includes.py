@@ -22,11 +22,12 @@ KERNEL_STD = {"array", "bit", "cmath", "cstdint", "limits", "type_traits"}
 INTRINSICS = re.compile(r"^(xsimd/.*|[a-z]*mmintrin\.h|x86intrin\.h|cpuid\.h|immintrin\.h)$")
 # Library header -> rooms that may include it.
 LIBRARIES = [
-    (re.compile(r"^glm/"), {"scene", "render", "cli"}),
+    (re.compile(r"^glm/"), {"scene", "render", "lanecast", "cli"}),
     (re.compile(r"^nlohmann/"), {"scene"}),
     (re.compile(r"^(OpenEXR|Imath)/|^(Imf|Imath|Iex)[A-Za-z0-9]*\.h$|^half\.h$"), {"render"}),
     (re.compile(r"^png\.h$|^zlib\.h$"), {"render"}),
     (re.compile(r"^CLI/"), {"cli", "main"}),
+    (re.compile(r"^embree[34]/"), {"cli"}),
 ]
 NLOHMANN_FILES = 2  # a reader and at most one helper: everyone else sees a SceneDescription
 # Room -> rooms of ours it may include.
@@ -35,7 +36,8 @@ ROOMS = {
     "kernels": {"simd", "kernels"},
     "scene": {"scene"},
     "render": {"render", "scene"},
-    "cli": {"cli", "render", "scene"},
+    "lanecast": {"lanecast", "render", "scene"},
+    "cli": {"cli", "lanecast", "render", "scene"},
     "main": {"cli", "render", "scene"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

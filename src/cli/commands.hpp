@@ -16,6 +16,7 @@ void add_check(CLI::App& app, Command& chosen);
 void add_info(CLI::App& app, Command& chosen);
 void add_pick(CLI::App& app, Command& chosen);
 void add_diff(CLI::App& app, Command& chosen);
+void add_bench(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 
 } // namespace lanecast

@@ -2,7 +2,7 @@
 
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
-#include "cli/thread_count.hpp"
+#include "scene/thread_count.hpp"
 #include "scene/error.hpp"
 #include "scene/flatten.hpp"
 #include "scene/load_scene.hpp"

@@ -51,13 +51,13 @@ struct TraceRecord {
     RayKind kind;
     std::int32_t slot; ///< -1: left the scene
     float org[3], dir[3];
-    float t;         ///< in units of |dir|
+    float t; ///< in units of |dir|
     float point[3];
-    float normal[3]; ///< unit, faces the ray
+    float normal[3];     ///< unit, faces the ray
     std::int32_t inside; ///< 1: the ray hit the surface from its inside
     float fresnel;       ///< factor of the reflection; 0 where nothing is reflected
     float ambient[3];    ///< term of the local light; the background of a ray that left
-    float color[3];  ///< of the ray, children included
+    float color[3];      ///< of the ray, children included
 };
 
 struct TraceLight {
@@ -82,7 +82,7 @@ struct RenderJob {
     CameraRecord camera;
     FilmView film;
     std::int32_t image_width, image_height;
-    std::int32_t tile_size; ///< no tile is wider or higher
+    std::int32_t tile_size;             ///< no tile is wider or higher
     const std::int32_t* pixel_order[2]; ///< x and y of the pixels of a square in Morton order: tile_size a side, edge: 2 more
     std::uint32_t pixel_order_count;
     std::int32_t depth;
@@ -99,23 +99,51 @@ struct RenderJob {
     TraceLog* log; ///< null but for `pick`
 };
 
-/// Rays in structure-of-arrays form, each pointer to `count` elements of any alignment.
+/// The caller's coordinates: (p - centre) * scale is normalised. t has the same value in both once multiplied by scale, a power
+/// of two, because directions are left as they are.
+struct StreamUnits {
+    double centre[3];
+    double scale;
+};
+
+/// How the caller numbers the primitives of an object.
+struct StreamObject {
+    std::uint32_t first_scene_id; ///< its primitive k has the scene id first_scene_id + k
+    std::uint32_t mirrored;       ///< 1: flattening exchanged the second and third vertex of its triangles
+};
+
+/// Rays in structure-of-arrays form, each pointer to `count` elements of any alignment. t may be tmax itself; otherwise what is
+/// written overlaps nothing that is read.
 struct RayStream {
-    const float* org[3];
-    const float* dir[3]; ///< any length between 1e-18 and 1e18; t is in units of it
-    const float* tmin;   ///< a hit has t > tmin; 0 or more; may be null: 0
-    const float* tmax;   ///< and t <= tmax; may be null: infinity
-    float* t;            ///< out; closest_hit: of the hit, tmax where there is none. any_hit: unused
-    std::int32_t* slot;  ///< out: the primitive's slot, -1 for a miss; any_hit: some primitive's
+    const float* org[3];       ///< common_origin: one element each
+    const float* dir[3];       ///< any length between 1e-18 and 1e18; t is in units of it
+    const float* tmin;         ///< a hit has t > tmin; below 0 counts as 0; may be null: 0
+    const float* tmax;         ///< and t <= tmax; may be null: infinity
+    float* t;                  ///< out; closest_hit: of the hit, tmax where there is none. any_hit: unused. May be null
+    std::int32_t* slot;        ///< out: the primitive's slot, -1 for a miss; any_hit: some primitive's. May be null
     std::uint32_t brute_force; ///< 1: every primitive instead of the tree
     std::uint32_t count;
+    std::uint32_t common_origin; ///< 1: every org is the same point
+    std::uint32_t incoherent;    ///< 1: neighbours in the stream have little in common
+
+    const StreamUnits* units; ///< of org, tmin, tmax and t; null: normalised
+    std::uint8_t* occluded;   ///< out, any_hit: 1 for a hit, 0 for a miss; may be null
+
+    // Out, closest_hit: each may be null.
+    const StreamObject* objects; ///< by object; null: there is only one, not mirrored
+    std::uint32_t* object;       ///< no_object for a miss
+    std::uint32_t* primitive;    ///< in the object, as the caller numbered them; no_object for a miss
+    float* normal[3];            ///< unit, points outside; all or none; 0 for a miss
+    float* u;                    ///< triangles: weights of the second and third vertex as the caller numbered them, else 0;
+    float* v;                    ///< both or none
 };
+inline constexpr std::uint32_t no_object = 0xffffffffu;
 
 /// The doors of one instruction set and precision.
 struct KernelTable {
-    const char* isa;         ///< "scalar", "sse4.2", "avx2", "avx512"
-    std::int32_t width;      ///< rays per vector
-    std::uint32_t reference; ///< 1: computes in double
+    const char* isa;                                           ///< "scalar", "sse4.2", "avx2", "avx512"
+    std::int32_t width;                                        ///< rays per vector
+    std::uint32_t reference;                                   ///< 1: computes in double
     std::uint64_t (*scratch_bytes)(const RenderJob&) noexcept; ///< what render_tile needs, 64-byte aligned; touched as used
     TileStats (*render_tile)(const RenderJob&, Tile, void* scratch) noexcept;
     void (*closest_hit)(const SceneView&, const RayStream&) noexcept;

@@ -36,10 +36,17 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
     into.error = select(lanes, from.error, into.error);
 }
 
-/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
+/// The triangles of a packet's hits, and where the rays meet their planes.
 template <FloatBatch F>
-LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
-                                        Mask<F> lanes) {
+struct TriangleHit {
+    Vec3<F> a, b, c, normal;
+    TriangleEdges<F> edges; ///< the same numbers as when they were hit
+    F inv_det;              ///< the weight of b is edges.v * inv_det, that of c edges.w * inv_det
+};
+
+template <FloatBatch F>
+LANECAST_INLINE TriangleHit<F> triangle_hit(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
+                                            Mask<F> lanes) {
     using S = Scalar<F>;
     const Vec3<F> zero{F(0), F(0), F(0)};
     Vec3<F> a = zero, b = zero, c = zero, n = zero;
@@ -67,7 +74,14 @@ LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& o
     const F inv_dz = F(1) / d.z;
     const ShearedRay<F> ray{permute(org), {d.x * inv_dz, d.y * inv_dz, inv_dz}};
     const TriangleEdges<F> edges = triangle_edges(ray, permute(a), permute(b), permute(c));
-    const F inv_det = F(1) / (edges.u + edges.v + edges.w);
+    return {a, b, c, n, edges, F(1) / (edges.u + edges.v + edges.w)};
+}
+
+/// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
+template <FloatBatch F>
+LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
+                                        Mask<F> lanes) {
+    const auto [a, b, c, n, edges, inv_det] = triangle_hit(scene, org, dir, slot, lanes);
     const Vec3<F> along_b = (b - a) * (edges.v * inv_det), along_c = (c - a) * (edges.w * inv_det);
     return {a + (along_b + along_c), n, (abs(a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>)};
 }

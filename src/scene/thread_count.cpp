@@ -1,4 +1,4 @@
-#include "cli/thread_count.hpp"
+#include "scene/thread_count.hpp"
 
 #include <algorithm>
 #include <cmath>

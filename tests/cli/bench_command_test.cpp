@@ -1,0 +1,81 @@
+// lanecast bench: that it measures what it is asked to, and what it refuses.
+#include "cli/run_program.hpp"
+#include "render/output_support.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+using namespace lanecast::test;
+
+namespace {
+
+const std::string gem = LANECAST_SOURCE_DIR "/scenes/meshes/gem.ply";
+
+std::size_t lines_with(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+    return count;
+}
+
+std::string contents(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+TEST_CASE("a row per kind, instruction set, precision and number of threads; JSON and plots") {
+    const TemporaryDirectory directory;
+    const Outcome outcome = run({"bench",         gem,
+                                 "--rays",        "4096",
+                                 "--repetitions", "2",
+                                 "--check",       "500",
+                                 "--kinds",       "primary,mirror",
+                                 "--isa",         "scalar",
+                                 "--precision",   "balanced,reference",
+                                 "--threads",     "1,2",
+                                 "--commit",      "abc",
+                                 "--json",        "out.json",
+                                 "--plot",        "out.svg,out.png"},
+                                {.directory = directory.path});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK(lines_with(outcome.out, "\nprimary ") == 4);
+    CHECK(lines_with(outcome.out, "\nmirror ") == 4);
+    const std::string json = contents(directory.path / "out.json");
+    CHECK(lines_with(json, "\"rays_per_second\"") == 8);
+    CHECK(lines_with(json, "\"against_reference\"") == 4); // for one number of threads
+    for (const char* key : {"\"cpu\"", "\"compiler\"", "\"commit\": \"abc\"", "repetitions=2"}) {
+        CAPTURE(key);
+        CHECK(json.find(key) != std::string::npos);
+    }
+    CHECK(contents(directory.path / "out.svg").starts_with("<svg"));
+    CHECK(contents(directory.path / "out.png").starts_with("\x89PNG"));
+}
+
+TEST_CASE("frames and calls") {
+    const Outcome frames =
+        run({"bench", "--frames", LANECAST_SOURCE_DIR "/scenes/empty.json", "--repetitions", "1"}, {.seconds = 120});
+    CHECK(frames.code == 0);
+    CHECK(frames.out.find("outside traversal") != std::string::npos);
+    CHECK(frames.out.find("speed-up of a pair") != std::string::npos);
+    const Outcome calls = run({"bench", gem, "--calls", "--isa", "scalar", "--repetitions", "1"}, {.seconds = 120});
+    CHECK(calls.code == 0);
+    CHECK(calls.out.find("nanoseconds per ray") != std::string::npos);
+}
+
+TEST_CASE("what cannot be measured is refused") {
+    CHECK(run({"bench"}).code == 2);
+    CHECK(run({"bench", "teapot"}).code == 2);
+    CHECK(run({"bench", "/nowhere/mesh.ply"}).code == 4);
+    CHECK(run({"bench", gem, "--isa", "neon"}).code == 2);
+    CHECK(run({"bench", gem, "--kinds", "gamma"}).code == 2);
+    CHECK(run({"bench", gem, "--repetitions", "0"}).code == 2);
+    CHECK(run({"bench", gem, "--threads", "0"}).code == 2);
+    CHECK(run({"bench", gem, "--rays", "0"}).code == 2);
+    CHECK(run({"bench", gem, "--rays", "1024", "--repetitions", "1", "--isa", "scalar", "--json", "/nowhere/out.json"}).code ==
+          5);
+}
