@@ -48,7 +48,7 @@ SpdCounts count(const std::string& name, Facing facing) {
     SpdRules rules;
     rules.one_sided = name != "teapot"; // whose rules ask for two sides
     rules.facing = facing;
-    return count_spd_rays(scene, rules, *find_kernels("auto", Precision::balanced));
+    return count_spd_rays(scene, rules, find_kernels("auto", Precision::balanced));
 }
 
 void compare(const char* what, std::uint64_t found, double published) {

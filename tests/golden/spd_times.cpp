@@ -66,7 +66,7 @@ std::string ratio(double theirs, double ours) {
 
 int main(int argc, char** argv) {
     const int rounds = argc > 1 ? std::atoi(argv[1]) : 5;
-    const KernelTable& kernels = *find_kernels(argc > 2 ? argv[2] : "auto", Precision::balanced);
+    const KernelTable& kernels = find_kernels(argc > 2 ? argv[2] : "auto", Precision::balanced);
     std::printf("%s\n| scene | tree ms | frame ms | rays | M rays/s | GOLEM M rays/s | times GOLEM's | the HP-835's |\n",
                 kernels.isa);
     for (const Published& row : published) {
