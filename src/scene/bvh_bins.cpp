@@ -50,8 +50,8 @@ void merge(Bins& bins, const Bins& other, int used) {
         }
 }
 
-/// Neighbours often fall into one bin, and would wait for each other's stores: every other one has bins of its own. Measured: up to
-/// 10 % of flattening.
+/// Neighbours often fall into one bin, and would wait for each other's stores: every other one has bins of its own. Measured: up
+/// to 10 % of flattening.
 void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const BinMapping& mapping) {
     constexpr std::uint32_t worth_merging = 512;
     std::uint32_t i = 0;
