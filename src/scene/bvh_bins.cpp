@@ -32,15 +32,13 @@ void grow(Bin& bin, Float4 lo, Float4 hi) {
     bin.hi = max4(bin.hi, hi);
 }
 
-void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const BinMapping& mapping) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Float4 lo = lo_of(refs[i]), hi = hi_of(refs[i]);
-        const Int4 index = mapping(lo + hi);
-        for (int axis = 0; axis < 3; ++axis) {
-            Bin& own = bins.bin[axis][index[axis]];
-            grow(own, lo, hi);
-            ++own.count;
-        }
+void add(Bins& bins, const BuildRef& ref, const BinMapping& mapping) {
+    const Float4 lo = lo_of(ref), hi = hi_of(ref);
+    const Int4 index = mapping(lo + hi);
+    for (int axis = 0; axis < 3; ++axis) {
+        Bin& own = bins.bin[axis][index[axis]];
+        grow(own, lo, hi);
+        ++own.count;
     }
 }
 
@@ -51,6 +49,22 @@ void merge(Bins& bins, const Bins& other, int used) {
             grow(bins.bin[axis][b], from.lo, from.hi);
             bins.bin[axis][b].count += from.count;
         }
+}
+
+/// Neighbours often fall into one bin, and would wait for each other's stores: every other one has bins of its own. Measured: up
+/// to 10 % of flattening.
+void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const BinMapping& mapping) {
+    constexpr std::uint32_t worth_merging = 512;
+    std::uint32_t i = 0;
+    if (count >= worth_merging) {
+        Bins odd(mapping.bins);
+        for (; i + 1 < count; i += 2) {
+            add(bins, refs[i], mapping);
+            add(odd, refs[i + 1], mapping);
+        }
+        merge(bins, odd, mapping.bins);
+    }
+    for (; i < count; ++i) add(bins, refs[i], mapping);
 }
 
 /// Cheapest cut of all axes: area times count, summed over both halves.

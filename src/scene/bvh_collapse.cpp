@@ -70,7 +70,7 @@ private:
         if (is_leaf(cuts_[root])) // a single leaf is the only child of its node
             wide.child[wide.count++] = root, wide.leaves = 1;
         else
-            add_children(wide, root, 8);
+            add_halves(wide, root, left_children(cuts_[root]), child_count(cuts_[root]));
         for (std::uint32_t i = 0; i < wide.count; ++i)
             if ((wide.leaves >> i & 1u) != 0) add_leaf(piece, wide, i);
         piece.nodes.push_back(wide);
@@ -83,6 +83,10 @@ private:
             wide.child[wide.count++] = root;
             return;
         }
+        add_halves(wide, root, left, places);
+    }
+
+    void add_halves(WideNode& wide, std::uint32_t root, std::uint32_t left, std::uint32_t places) const {
         add_children(wide, nodes_[root].children, left);
         add_children(wide, nodes_[root].children + 1, places - left);
     }

@@ -13,7 +13,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t task_size = 8192; ///< subtrees of fewer primitives are one thread's
 
 // Expected work of a ray, per area of a box that it enters. Measured: docs/bvh.md.
-constexpr float node_cost = 1, leaf_cost = 1, primitive_cost = 0.1f;
+constexpr float node_cost = 1, child_cost = 0.1f, leaf_cost = 1, primitive_cost = 0.1f;
 
 /// Cost of a subtree that may take i + 1 places; more never cost more. The last is infinite: nobody gets eight but a node's root.
 struct Costs {
@@ -53,7 +53,7 @@ private:
     Costs solve(std::uint32_t index) {
         const BinaryNode& node = nodes_[index];
         if (is_leaf(node)) {
-            cuts_[index] = 1;
+            cuts_[index] = one_leaf;
             Costs costs;
             std::fill_n(costs.of, 7, cost_as_leaf(node));
             costs.of[7] = infinity;
@@ -82,17 +82,24 @@ private:
             }
         }
         const BinaryNode& node = nodes_[index];
-        float single = node.area * node_cost + best[7];
-        std::uint32_t cut = static_cast<std::uint32_t>(from[7]) << 28;
+        // Of ties, which areas that underflow make, the one with more children.
+        std::uint32_t children = 2; // of its own wide node
+        float inside = infinity;
+        for (std::uint32_t count = 2; count <= 8; ++count) {
+            const float cost = best[count - 1] + node.area * (child_cost * static_cast<float>(count));
+            if (cost <= inside) inside = cost, children = count;
+        }
+        float single = node.area * node_cost + inside;
+        std::uint32_t cut = static_cast<std::uint32_t>(from[children - 1]) << 28 | children;
         if (join_leaves_ && may_be_leaf(node)) {
             const float leaf = cost_as_leaf(node);
-            if (leaf <= single) single = leaf, cut |= 1;
+            if (leaf <= single) single = leaf, cut = one_leaf;
         }
         // The halves share all places that are allowed.
         Costs costs;
         costs.of[0] = single;
         for (std::uint32_t i = 1; i < 7; ++i) {
-            if (best[i] < single) cut |= static_cast<std::uint32_t>(from[i]) << (4 * i);
+            if (best[i] <= single) cut |= static_cast<std::uint32_t>(from[i]) << (4 * i);
             costs.of[i] = std::min(best[i], single);
         }
         costs.of[7] = infinity;

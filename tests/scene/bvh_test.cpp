@@ -187,6 +187,21 @@ TEST_CASE("depth is bounded where the area heuristic alone goes deeper") {
     CHECK(build_bvh(refs.data(), refs.size(), first_slot, nullptr, 1).quality.depth <= max_bvh_depth);
 }
 
+TEST_CASE("nodes have several children even where areas underflow") {
+    Random random(5);
+    std::vector<std::array<glm::dvec3, 3>> triangles{{glm::dvec3(-1, -1, -1), glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, 0)}};
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 p = random.point(1e-24);
+        triangles.push_back({p, p + random.point(1e-25), p + random.point(1e-25)});
+    }
+    SceneDescription scene;
+    scene.objects.push_back(make_object(triangle_mesh(triangles)));
+    const SceneArrays arrays = flatten(scene, {}, 1);
+    CHECK(check_tree(arrays) == "");
+    CHECK(arrays.triangles.size() == 3001);
+    CHECK(arrays.quality.nodes < 500);
+}
+
 TEST_CASE("leaves: up to eight of one kind where splitting does not pay, never two kinds") {
     SceneDescription scene;
     for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({0, 0, 0}, 1));
