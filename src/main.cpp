@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/print.hpp"
+#include "cli/settings_options.hpp"
 #include "cli/usage.hpp"
 #include "scene/error.hpp"
 
@@ -10,6 +11,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -29,7 +31,10 @@ int run(int argc, char** argv) {
     add_schema(app, command);
     describe_usage(app);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = join_bvh_words(argc, argv);
+        std::vector<char*> pointers;
+        for (std::string& argument : arguments) pointers.push_back(argument.data());
+        app.parse(static_cast<int>(pointers.size()), pointers.data());
     } catch (const CLI::ParseError& error) {
         return report_usage(app, error);
     }

@@ -18,7 +18,7 @@ int check(const FrameRequest& request) {
     static_cast<void>(flatten_requested(request, scene)); // finds what only the arrays show: range, ill-conditioned transforms
     if (request.quiet) return static_cast<int>(ExitCode::done);
     const SceneDescription& description = scene.description;
-    print_result(printable(request.scene, 4096) + ": ok, " + counted(description.objects.size(), "object") + ", " +
+    print_result(printable_path(request.scene) + ": ok, " + counted(description.objects.size(), "object") + ", " +
                  counted(description.lights.size(), "light") +
                  (scene.warnings.empty() ? "" : ", " + counted(scene.warnings.size(), "warning")) + "\n");
     return static_cast<int>(ExitCode::done);

@@ -5,6 +5,7 @@
 #include "render/read_picture.hpp"
 #include "render/tonemap.hpp"
 #include "scene/error.hpp"
+#include "scene/text_tools.hpp"
 
 #include <cstdio>
 #include <ostream>
@@ -41,7 +42,7 @@ void print_measures(const Comparison& comparison, double threshold, std::ostream
 }
 
 void write_difference(const std::filesystem::path& path, const Film& a, const Film& b, const std::optional<float>& scale) {
-    if (path.extension() == ".exr")
+    if (lower_case(path.extension().string()) == ".exr")
         return write_exr(path, difference_picture(a, b, scale.value_or(1.0f)), {.float_pixels = true, .attributes = {}});
     write_png(path, tonemap(difference_picture(a, b, scale.value_or(16.0f)), View::plain));
 }
@@ -58,14 +59,14 @@ void write_difference(const std::filesystem::path& path, const Film& a, const Fi
 } // namespace
 
 int run_diff(const DiffOptions& options, std::ostream& out) {
-    const std::string extension = options.output.extension().string();
+    const std::string extension = lower_case(options.output.extension().string());
     if (!options.output.empty() && extension != ".exr" && extension != ".png")
-        throw Error(ExitCode::usage, options.output.string() + ": a difference picture is an .exr or a .png");
+        throw Error(ExitCode::usage, printable_path(options.output) + ": a difference picture is an .exr or a .png");
     const Film a = read_picture(options.a), b = read_picture(options.b);
     const Comparison comparison = compare(a, b, options.threshold);
 
-    out << "a                   " << options.a.string() << ": " << window_of(a) << "\n";
-    out << "b                   " << options.b.string() << ": " << window_of(b) << "\n";
+    out << "a                   " << printable_path(options.a) << ": " << window_of(a) << "\n";
+    out << "b                   " << printable_path(options.b) << ": " << window_of(b) << "\n";
     if (!comparison.same_size) {
         out << "result              the sizes differ\n";
         return static_cast<int>(ExitCode::failure);

@@ -10,6 +10,8 @@ std::vector<Feature> features_of(const SceneArrays& arrays, const RenderSettings
         {"spheres", has(feature_spheres)},
         {"ellipsoids", has(feature_ellipsoids)},
         {"cylinders", has(feature_cylinders)},
+        {"cones", has(feature_cones)},
+        {"open cones", has(feature_open_cones)},
         {"planes", has(feature_planes)},
         {"lights", has(feature_lights)},
         {"specular", has(feature_specular)},

@@ -30,7 +30,8 @@ SceneArrays flatten_or_say_where(const FrameRequest& request, const RequestedSce
 void add_scene_options(CLI::App& command, FrameRequest& request) {
     command.add_option("scene", request.scene, "Scene file (JSON)")->required()->type_name("FILE");
     command.add_flag("--strict", request.strict, "Warnings are errors");
-    command.add_flag("-q,--quiet", request.quiet, "Print no warnings, no progress and no summary, only errors");
+    command.add_flag("-q,--quiet", request.quiet,
+                     "Only errors and what was asked for: no warnings (but of values that overflowed), no progress, no summary");
 }
 
 void add_frame_options(CLI::App& command, FrameRequest& request) {

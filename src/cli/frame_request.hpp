@@ -1,5 +1,6 @@
 #pragma once
-// What `render`, `check`, `info` and `pick` have in common: a scene, its settings as changed by the command line, and how to run them.
+// What `render`, `check`, `info` and `pick` have in common: a scene, its settings as changed by the command line, and how to run
+// them.
 
 #include "cli/settings_options.hpp"
 #include "render/renderer.hpp"

@@ -59,9 +59,10 @@ void add_instruction_sets(JsonWriter& json) {
 
 std::string info_json(const RequestedScene& scene, const SceneArrays& arrays) {
     const SceneCounts counts = count_scene(scene.description);
-    static constexpr const char* objects[] = {"spheres", "cylinders", "planes", "meshes"};
+    static constexpr const char* objects[] = {"spheres", "cylinders", "cones", "planes", "meshes"};
     static constexpr const char* lights[] = {"ambient", "directional", "point", "spot"};
-    static constexpr const char* primitives[] = {"triangles", "spheres", "ellipsoids", "cylinders", "planes"};
+    static constexpr const char* primitives[] = {"triangles", "spheres",    "ellipsoids", "cylinders",
+                                                 "cones",     "open cones", "planes"};
     JsonWriter json;
     json.open_object();
     json.add("scene", scene.description.file);

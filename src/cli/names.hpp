@@ -8,9 +8,9 @@
 
 namespace lanecast {
 
-inline constexpr const char* shape_names[] = {"sphere", "cylinder", "plane", "mesh"};
+inline constexpr const char* shape_names[] = {"sphere", "cylinder", "cone", "plane", "mesh"};
 inline constexpr const char* light_names[] = {"ambient", "directional", "point", "spot"};
-inline constexpr const char* primitive_names[] = {"triangle", "sphere", "ellipsoid", "cylinder", "plane"};
+inline constexpr const char* primitive_names[] = {"triangle", "sphere", "ellipsoid", "cylinder", "cone", "open cone", "plane"};
 static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
 static_assert(std::size(light_names) == std::variant_size_v<Light>);
 static_assert(std::size(primitive_names) == primitive_kind_count);

@@ -27,7 +27,7 @@ int pick(const PickRequest& request) {
         throw Error(ExitCode::usage, "pick: pixel (" + std::to_string(request.x) + ", " + std::to_string(request.y) +
                                          ") is not in the image, " + std::to_string(options.width) + "x" +
                                          std::to_string(options.height));
-    const KernelTable& kernels = *find_kernels(request.frame.isa, scene.settings.precision);
+    const KernelTable& kernels = find_kernels(request.frame.isa, scene.settings.precision);
     const SceneArrays arrays = flatten_requested(request.frame, scene);
     const PixelTrace trace =
         trace_pixel(kernels, arrays, scene.description.camera, scene.settings, options, request.x, request.y);

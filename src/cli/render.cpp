@@ -11,6 +11,9 @@
 #include "render/dispatch.hpp"
 #include "render/scrub.hpp"
 #include "scene/error.hpp"
+#include "scene/scene_format.hpp"
+#include "scene/scene_message.hpp"
+#include "scene/text_tools.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -27,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 struct RenderRequest {
     FrameRequest frame;
-    std::string output;
+    std::optional<std::string> output;
     std::optional<Tile> crop;
     int tile_size = 32;
     View view = default_view;
@@ -100,16 +103,19 @@ void add_options(CLI::App& command, RenderRequest& request) {
                         [&](double done, std::uint64_t rays) { display.show(done, rays); });
 }
 
+/// Values that the files cannot hold. Those that are not finite make a wrong picture, which --quiet does not hide.
 void warn_of_values(const RenderRequest& request, Film& film) {
-    const std::uint64_t not_finite = scrub(film);
-    const std::uint64_t beyond = request.float_pixels ? 0 : count_beyond_half(film);
-    if (request.frame.quiet) return;
-    if (not_finite > 0)
-        print_message("warning: " + std::to_string(not_finite) +
-                      " values of the film are not finite; NaN becomes 0, infinity the largest number");
-    if (beyond > 0)
-        print_message("warning: " + std::to_string(beyond) +
-                      " values are beyond 65504, the largest half, and are clamped to it; --float keeps them");
+    const auto warn = [&](std::uint64_t values, const std::string& what, bool hidden) {
+        if (values == 0) return;
+        const std::string text = counted(values, "value") + " of the picture " + what;
+        const std::filesystem::path scene = request.frame.scene;
+        if (request.frame.strict)
+            throw Error(ExitCode::scene, message_in_scene(scene, "error", text + std::string(strict_suffix)));
+        if (!hidden) print_message(message_in_scene(scene, "warning", text));
+    };
+    warn(scrub(film), "overflowed; infinity became the largest number, NaN became 0", false);
+    warn(request.float_pixels ? 0 : count_beyond_half(film), "had to be clamped to 65504, the largest half; --float keeps them",
+         request.frame.quiet);
 }
 
 [[nodiscard]] PictureOptions picture_options(const RenderRequest& request, const RequestedScene& scene,
@@ -118,7 +124,7 @@ void warn_of_values(const RenderRequest& request, Film& film) {
     const double half_field = scene.description.camera.field * std::numbers::pi / 360;
     options.exr.screen_window_width = static_cast<float>(2 * std::tan(half_field) * report.options.width / report.options.height);
     options.exr.float_pixels = request.float_pixels;
-    options.exr.threads = options.threads = thread_count(request.frame);
+    options.threads = thread_count(request.frame);
     options.exr.attributes = exr_attributes(report, !request.no_volatile_metadata);
     options.view = request.view;
     options.exposure = request.exposure;
@@ -126,8 +132,8 @@ void warn_of_values(const RenderRequest& request, Film& film) {
 }
 
 void print_summary(const PictureNames& names, const RenderReport& report, const Film& film) {
-    std::string files = names.exr.string();
-    if (!names.png.empty()) files += (files.empty() ? "" : " and ") + names.png.string();
+    std::string files = names.exr.empty() ? "" : printable_path(names.exr);
+    if (!names.png.empty()) files += (files.empty() ? "" : " and ") + printable_path(names.png);
     print_message("wrote " + files + " (" + std::to_string(film.width) + "x" + std::to_string(film.height) + ", " +
                   short_count(static_cast<double>(ray_count(report.stats.tiles))) + " rays in " +
                   short_seconds(report.stats.seconds) + ")");
@@ -136,8 +142,9 @@ void print_summary(const PictureNames& names, const RenderReport& report, const 
 int render(const RenderRequest& request) {
     RequestedScene scene = load_requested(request.frame);
     const FrameOptions asked = requested_frame(request, scene);
-    const KernelTable& kernels = *find_kernels(request.frame.isa, scene.settings.precision);
-    const PictureNames names = picture_names(request.output, request.frame.scene);
+    const KernelTable& kernels = find_kernels(request.frame.isa, scene.settings.precision);
+    if (request.output && request.output->empty()) throw Error(ExitCode::usage, "--output: the name is empty");
+    const PictureNames names = picture_names(request.output.value_or(""), request.frame.scene);
     probe_outputs(names); // before the work, not after it
     const SceneArrays arrays = flatten_requested(request.frame, scene);
 

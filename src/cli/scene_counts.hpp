@@ -10,7 +10,7 @@
 namespace lanecast {
 
 struct SceneCounts {
-    std::array<std::size_t, 4> objects{}; ///< by Shape: spheres, cylinders, planes, meshes
+    std::array<std::size_t, 5> objects{}; ///< by Shape: spheres, cylinders, cones, planes, meshes
     std::array<std::size_t, 4> lights{};  ///< by Light: ambient, directional, point, spot
     std::size_t triangles = 0;            ///< of the file, degenerate ones included
 };

@@ -5,6 +5,7 @@
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include <CLI/CLI.hpp>
 
@@ -34,8 +35,6 @@ constexpr Switch switches[] = {
      [](RenderSettings& s) -> bool& { return s.refraction; }},
     {"schlick", "schlick", "Schlick's Fresnel term on reflections", [](RenderSettings& s) -> bool& { return s.schlick; }},
     {"planes", "planes", "Infinite planes", [](RenderSettings& s) -> bool& { return s.planes; }},
-    {"bvh", "bvh", "The tree; off: every ray tests every primitive, same picture",
-     [](RenderSettings& s) -> bool& { return s.bvh; }},
 };
 
 const KeySpec& key_of(const BlockSpec& block, std::string_view name) {
@@ -81,6 +80,23 @@ void add_choice(CLI::App& command, SettingsChanges& changes, const std::string& 
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
+/// A switch that may also be given a word. See `join_bvh_words`.
+void add_bvh(CLI::App& command, SettingsChanges& changes, const KeySpec& key) {
+    std::vector<std::string> words{"false", "true"};
+    words.insert(words.end(), key.choices.begin(), key.choices.end());
+    const std::string help = "The tree: off (every ray tests every primitive), default or quality; same picture";
+    CLI::Option* const option = command.add_flag("--bvh,!--no-bvh", help);
+    option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->group(group)->check(CLI::IsMember(words));
+    changes.push_back([option, &key](RenderSettings& settings) {
+        if (option->count() == 0) return;
+        const std::string word = option->results().back();
+        const auto found = std::ranges::find(key.choices, word);
+        settings.bvh = found != key.choices.end() ? static_cast<BvhMode>(found - key.choices.begin())
+                       : word == "false"          ? BvhMode::off
+                                                  : BvhMode::standard;
+    });
+}
+
 const char* json_bool(bool value) { return value ? "true" : "false"; }
 
 } // namespace
@@ -88,6 +104,7 @@ const char* json_bool(bool value) { return value ? "true" : "false"; }
 void add_settings_options(CLI::App& command, SettingsChanges& changes) {
     for (const Switch& s : switches) add_switch(command, changes, s.option, s.help, s.member);
     const BlockSpec &render = format::render, &aa = format::anti_aliasing;
+    add_bvh(command, changes, key_of(render, "bvh"));
     add_number(command, changes, "--depth",
                "Last level of reflected and transmitted rays that is traced; the camera ray is level 0", key_of(render, "depth"),
                [](RenderSettings& s, double v) { s.depth = static_cast<int>(v); });
@@ -107,6 +124,18 @@ void add_settings_options(CLI::App& command, SettingsChanges& changes) {
                           [](RenderSettings& s) -> Precision& { return s.precision; });
 }
 
+std::vector<std::string> join_bvh_words(int argc, const char* const* argv) {
+    std::vector<std::string> arguments(argv, argv + argc);
+    const std::span<const std::string_view> words = key_of(format::render, "bvh").choices;
+    for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
+        if (arguments[i] == "--") break;
+        if (arguments[i] != "--bvh" || std::ranges::find(words, arguments[i + 1]) == words.end()) continue;
+        arguments[i] += "=" + arguments[i + 1];
+        arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+    return arguments;
+}
+
 RenderSettings changed(RenderSettings settings, const SettingsChanges& changes) {
     for (const auto& change : changes) change(settings);
     return settings;
@@ -117,6 +146,7 @@ std::string settings_json(const RenderSettings& settings) {
     std::string json = "{";
     for (const Switch& one : switches) json += std::string("\"") + one.key + "\": " + json_bool(one.member(s)) + ", ";
     const auto word = [](const KeySpec& key, auto value) { return std::string(key.choices[static_cast<std::size_t>(value)]); };
+    json += "\"bvh\": \"" + word(key_of(format::render, "bvh"), s.bvh) + "\", ";
     json += "\"anti_aliasing\": {\"mode\": \"" + word(key_of(format::anti_aliasing, "mode"), s.anti_aliasing.mode) +
             "\", \"samples\": " + std::to_string(s.anti_aliasing.samples) +
             ", \"offset\": " + number_text(s.anti_aliasing.offset) + ", \"planes\": " + json_bool(s.anti_aliasing.planes) + "}, ";

@@ -19,6 +19,9 @@ using SettingsChanges = std::vector<std::function<void(RenderSettings&)>>;
 /// `changes` must outlive the parse.
 void add_settings_options(CLI::App& command, SettingsChanges& changes);
 
+/// The command line with `--bvh quality` as one word, `--bvh=quality`: `--bvh` alone is a switch, and a scene may follow it.
+[[nodiscard]] std::vector<std::string> join_bvh_words(int argc, const char* const* argv);
+
 [[nodiscard]] RenderSettings changed(RenderSettings settings, const SettingsChanges& changes);
 
 /// As one line of JSON that a scene's `render` block accepts.

@@ -1,5 +1,6 @@
 #include "cli/print.hpp"
 #include "cli/render_report.hpp"
+#include "scene/text_tools.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -75,10 +76,11 @@ double peak_bytes() {
 std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     const FrameStats& stats = report.stats;
     std::string table;
-    line(table, "%-14s %s", "scene", report.scene.c_str());
+    line(table, "%-14s %s", "scene", printable_path(report.scene).c_str());
     line(table, "%-14s %d x %d, tiles of %d", "image", report.options.width, report.options.height, report.options.tile_size);
-    line(table, "%-14s %s, %s, %d rays per vector", "kernels", report.isa.c_str(),
-         report.settings.precision == Precision::reference ? "reference (double)" : "balanced", report.width);
+    line(table, "%-14s %s, %s, %s per vector", "kernels", report.isa.c_str(),
+         report.settings.precision == Precision::reference ? "reference (double)" : "balanced",
+         counted(static_cast<std::size_t>(report.width), "ray").c_str());
     line(table, "%-14s %d", "threads", stats.threads);
     line(table, "time");
     add_stage(table, "load", report.load_seconds, "");
@@ -90,8 +92,8 @@ std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     add_stage(table, "write", report.write_seconds, "");
     add_rays(table, stats);
     const BvhQuality& tree = arrays.quality;
-    line(table, "%-14s %u nodes, %u leaves, %d levels, SAH cost %.4g", "tree", tree.nodes, tree.leaves, tree.depth,
-         tree.sah_cost);
+    line(table, "%-14s %s, %u %s, %s, SAH cost %.4g", "tree", counted(tree.nodes, "node").c_str(), tree.leaves,
+         tree.leaves == 1 ? "leaf" : "leaves", counted(static_cast<std::size_t>(tree.depth), "level").c_str(), tree.sah_cost);
     line(table, "%-14s scene %s, peak %s", "memory", short_bytes(static_cast<double>(memory_bytes(arrays))).c_str(),
          short_bytes(peak_bytes()).c_str());
     return table;

@@ -2,15 +2,38 @@
 
 #include "render/output_file.hpp"
 #include "render/png_io.hpp"
+#include "scene/error.hpp"
 #include "scene/parallel.hpp"
+#include "scene/text_tools.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string_view>
+#include <system_error>
 
 namespace lanecast {
 
+namespace {
+
+/// Endings by which a user asks for a format. Others are part of the name: "v1.5".
+constexpr std::string_view not_written[] = {".jpg", ".jpeg", ".tif", ".tiff", ".bmp",  ".gif",  ".hdr", ".pic", ".tga",
+                                            ".ppm", ".pgm",  ".pfm", ".pnm",  ".webp", ".avif", ".jxl", ".dds"};
+
+} // namespace
+
 PictureNames picture_names(const std::string& output, const std::filesystem::path& scene) {
-    if (output.ends_with(".exr")) return {output, {}};
-    if (output.ends_with(".png")) return {{}, output};
+    const std::size_t dot = output.find_last_of("./"); // `.exr` is a name that ends in .exr here
+    const std::string ending = dot == std::string::npos ? "" : lower_case(output.substr(dot));
+    if (ending == ".exr") return {output, {}};
+    if (ending == ".png") return {{}, output};
+    if (std::ranges::find(not_written, ending) != std::end(not_written))
+        throw Error(ExitCode::usage,
+                    "--output: " + printable_path(output) + ": pictures are written as .exr and .png, not as " + ending);
+    std::error_code ignored;
+    if (!output.ends_with('/') && std::filesystem::is_directory(output, ignored))
+        throw Error(ExitCode::output,
+                    printable_path(output) + ": is a directory; " + printable_path(output + "/") + " puts the pictures into it");
     const bool directory = output.empty() || output.ends_with('/');
     const std::string name = directory ? output + scene.stem().string() : output;
     return {name + ".exr", name + ".png"};
@@ -26,14 +49,20 @@ void write_pictures(const PictureNames& names, const Film& film, const PictureOp
     std::optional<OutputFile> exr, png;
     if (!names.exr.empty()) exr.emplace(names.exr);
     if (!names.png.empty()) png.emplace(names.png);
-    // libpng is one thread's work, and OpenEXR has a pool of its own: the two files are encoded at the same time.
+    // Below this many pixels for each, starting threads takes longer than they save.
+    constexpr int worth_a_thread = 1 << 14;
+    const int encoders = std::clamp(film.width * film.height / worth_a_thread, 1, options.threads);
+    ExrOptions exr_options = options.exr;
+    exr_options.threads = encoders;
+    // libpng is one thread's work, and OpenEXR has a pool of its own: the two files are encoded, and synchronised, at the same
+    // time.
     parallel_for(options.threads, 2, [&](std::size_t i) {
         if (i == 0 && exr) {
-            write_exr(*exr, film, options.exr);
+            write_exr(*exr, film, exr_options);
             exr->complete();
         }
         if (i == 1 && png) {
-            write_png(*png, tonemap(film, options.view, options.exposure, options.threads));
+            write_png(*png, tonemap(film, options.view, options.exposure, encoders));
             png->complete();
         }
     });

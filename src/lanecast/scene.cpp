@@ -49,7 +49,7 @@ std::vector<StreamObject> number_objects(const SceneDescription& description) {
 template <class Data>
 std::unique_ptr<Data> build(const SceneDescription& description, const BuildOptions& options, Clock::time_point begin) {
     auto data = std::make_unique<Data>();
-    data->kernels = find_kernels(options.isa, precision_of(options.precision));
+    data->kernels = &find_kernels(options.isa, precision_of(options.precision));
     data->arrays = flatten(description, description.render, options.threads > 0 ? options.threads : default_thread_count());
     data->scene = view(data->arrays);
     const Normalisation& normalisation = data->arrays.normalisation;

@@ -78,20 +78,20 @@ std::string_view best_isa() {
     return best->name; // scalar at the latest
 }
 
-const KernelTable* find_kernels(std::string_view isa, Precision precision) {
+const KernelTable& find_kernels(std::string_view isa, Precision precision) {
     if (isa == "auto") isa = precision == Precision::reference ? "scalar" : best_isa();
     const auto* entry = std::find_if(std::begin(known), std::end(known), [&](const KnownIsa& k) { return k.name == isa; });
     const std::string quoted = "instruction set '" + std::string(isa) + "'";
     if (entry == std::end(known)) {
         throw Error(ExitCode::usage, quoted + " does not exist; expected auto, scalar, sse4.2, avx2 or avx512");
     }
+    if (precision == Precision::reference && isa != "scalar") {
+        throw Error(ExitCode::usage, "precision 'reference' is computed by 'scalar' only, not by " + quoted);
+    }
     if (!entry->supported()) throw Error(ExitCode::isa, "this CPU lacks " + quoted + "; it can run " + usable_names());
     const KernelTable* table = compiled_table(isa, precision);
-    if (!table && precision == Precision::reference) {
-        throw Error(ExitCode::isa, "precision 'reference' is computed by 'scalar' only, not by " + quoted);
-    }
     if (!table) throw Error(ExitCode::isa, "this build lacks " + quoted + "; it holds " + usable_names());
-    return table;
+    return *table;
 }
 
 } // namespace lanecast

@@ -24,8 +24,8 @@ struct IsaInfo {
 [[nodiscard]] std::string_view best_isa();
 
 /// The kernels of `isa`, a name as above or "auto". Precision::reference is scalar, so there "auto" and "scalar" are the
-/// same and any other name is an error. Throws Error: ExitCode::usage for a name that does not exist, ExitCode::isa where
-/// the CPU or this build lacks it. Never null; the table is static.
-[[nodiscard]] const KernelTable* find_kernels(std::string_view isa, Precision precision);
+/// same and any other name is a usage error. Throws Error: ExitCode::usage for a name that does not exist, ExitCode::isa where
+/// the CPU or this build lacks it. The table is static.
+[[nodiscard]] const KernelTable& find_kernels(std::string_view isa, Precision precision);
 
 } // namespace lanecast

@@ -1,6 +1,7 @@
 #include "render/exr_io.hpp"
 
 #include "scene/error.hpp"
+#include "scene/text_tools.hpp"
 
 #include <cstdint>
 #include <new>
@@ -21,7 +22,7 @@ namespace {
 }
 
 [[nodiscard]] Error read_error(const std::filesystem::path& path, const std::string& reason) {
-    return {ExitCode::asset, path.string() + ": cannot read as OpenEXR: " + reason};
+    return {ExitCode::asset, printable_path(path) + ": cannot read as OpenEXR: " + reason};
 }
 
 struct ChannelNames {

@@ -4,6 +4,7 @@
 #include "render/output_file.hpp"
 #include "render/parallel_rows.hpp"
 #include "render/scrub.hpp"
+#include "scene/text_tools.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -125,7 +126,7 @@ void write_float(OutputFile& file, const std::string& name, const Film& film, co
 } // namespace
 
 void write_exr(OutputFile& file, const Film& film, const ExrOptions& options) {
-    const std::string name = file.path().string();
+    const std::string name = printable_path(file.path());
     try {
         (options.float_pixels ? write_float : write_half)(file, name, film, options);
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,7 @@
 #include "render/output_file.hpp"
 
+#include "scene/text_tools.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -16,7 +18,7 @@ namespace {
 constexpr std::size_t buffer_size = std::size_t{1} << 18; // few system calls, and small beside any film
 
 [[nodiscard]] Error output_error(const std::filesystem::path& path, const std::string& reason) {
-    return {ExitCode::output, path.string() + ": cannot write: " + reason};
+    return {ExitCode::output, printable_path(path) + ": cannot write: " + reason};
 }
 
 [[nodiscard]] std::string reason_of(int error_number) { return std::generic_category().message(error_number); }
@@ -29,7 +31,7 @@ struct Target {
 };
 
 [[nodiscard]] Target resolve_target(const std::filesystem::path& path) {
-    if (path.empty()) throw output_error("''", "the file name is empty");
+    if (path.empty()) throw output_error(path, "the file name is empty");
     std::error_code error;
     const std::filesystem::path canonical = std::filesystem::canonical(path, error);
     Target target{error ? path : canonical};
@@ -38,7 +40,7 @@ struct Target {
         if (errno == ENOENT && path.has_filename()) {
             const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : ".";
             if (!std::filesystem::exists(directory, error))
-                throw output_error(path, "the directory " + directory.string() + " does not exist");
+                throw output_error(path, "the directory " + printable_path(directory) + " does not exist");
             return target;
         }
         throw output_error(path, reason_of(errno));

@@ -2,6 +2,7 @@
 
 #include "render/png_errors.hpp"
 #include "scene/error.hpp"
+#include "scene/text_tools.hpp"
 
 #include <cerrno>
 #include <csetjmp>
@@ -55,7 +56,7 @@ struct PngReader {
 }
 
 [[nodiscard]] Error read_error(const std::filesystem::path& path, const std::string& reason) {
-    return {ExitCode::asset, path.string() + ": cannot read as PNG: " + reason};
+    return {ExitCode::asset, printable_path(path) + ": cannot read as PNG: " + reason};
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "render/output_file.hpp"
 #include "render/png_errors.hpp"
+#include "scene/text_tools.hpp"
 
 #include <csetjmp>
 #include <string>
@@ -45,7 +46,7 @@ void write_png(OutputFile& file, const Picture8& picture) {
     const bool encoded = info && encode(png, info, file, picture);
     png_destroy_write_struct(&png, &info);
     if (file.failed()) throw file.error();
-    if (!encoded) throw Error(ExitCode::output, file.path().string() + ": cannot write: " + reason.text);
+    if (!encoded) throw Error(ExitCode::output, printable_path(file.path()) + ": cannot write: " + reason.text);
 }
 
 void write_png(const std::filesystem::path& path, const Picture8& picture) {

@@ -3,6 +3,7 @@
 #include "render/exr_io.hpp"
 #include "render/png_io.hpp"
 #include "scene/error.hpp"
+#include "scene/text_tools.hpp"
 
 #include <array>
 #include <cerrno>
@@ -14,8 +15,12 @@ namespace lanecast {
 
 PictureKind picture_kind(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& reason) {
-        return Error(ExitCode::asset, path.string() + ": cannot read: " + reason);
+        return Error(ExitCode::asset, printable_path(path) + ": cannot read: " + reason);
     };
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&
+        !std::filesystem::is_directory(path, ignored))
+        throw fail("Not a regular file"); // a pipe without a writer would block
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) throw fail(std::generic_category().message(errno));
     std::array<unsigned char, 4> magic{};

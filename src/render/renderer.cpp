@@ -70,7 +70,7 @@ RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderS
     job.shadows = settings.shadows ? 1 : 0;
     job.transmissive_shadows = settings.transmissive_shadows ? 1 : 0;
     job.schlick = settings.schlick ? 1 : 0;
-    job.brute_force = settings.bvh ? 0 : 1;
+    job.brute_force = settings.bvh == BvhMode::off ? 1 : 0;
     job.soft_samples = (scene.features & feature_soft_lights) != 0 ? settings.soft_shadows : 0;
     job.anti_alias = anti_alias_kind(settings.anti_aliasing.mode);
     job.samples = settings.anti_aliasing.samples;

@@ -18,7 +18,7 @@ struct SrgbCurve {
     std::vector<std::uint16_t> first_steps; ///< [bucket]: how many thresholds, but for that of 0, lie in lower buckets
 };
 
-/// Built at first use, in about half a millisecond.
+/// Built at first use, in a quarter of a millisecond.
 [[nodiscard]] const SrgbCurve& srgb_curve();
 
 /// By the root, which is nearly the curve: so narrow in values that each bucket holds one threshold at most, as the test checks.

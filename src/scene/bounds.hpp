@@ -55,23 +55,29 @@ inline void include(DoubleBox& box, const DoubleBox& other) {
     return extent;
 }
 
-/// The same of the unit cylinder: radius 1, y in [-1/2, 1/2].
-[[nodiscard]] inline glm::dvec3 cylinder_extent(const glm::dmat3& linear) {
-    glm::dvec3 extent;
-    for (int row = 0; row < 3; ++row) extent[row] = std::hypot(linear[0][row], linear[2][row]) + 0.5 * std::abs(linear[1][row]);
-    return extent;
+/// Box of `linear` applied to the unit cone, radius 1 + taper * y, y in [-1/2, 1/2]; taper 0: the unit cylinder.
+[[nodiscard]] inline DoubleBox cone_box(const glm::dmat3& linear, double taper) {
+    DoubleBox box;
+    for (const double y : {-0.5, 0.5})
+        for (int row = 0; row < 3; ++row) {
+            const double radius = (1 + taper * y) * std::hypot(linear[0][row], linear[2][row]);
+            box.lo[row] = std::min(box.lo[row], y * linear[1][row] - radius);
+            box.hi[row] = std::max(box.hi[row], y * linear[1][row] + radius);
+        }
+    return box;
 }
 
-/// Box of a quadric about `centre`. Its computed t carries a few ulp of error, so the box is 2^-20 of its extent and of its
-/// coordinates larger than the body. `condition`, of its matrix, magnifies what rounding the ray's coordinates, of 1 or so, does.
-[[nodiscard]] inline Box quadric_box(const glm::dvec3& centre, const glm::dvec3& extent, double condition = 0) {
+/// Box of a quadric with the body's exact box about `centre`. Its computed t carries a few ulp of error, so the result is 2^-20
+/// of its extent and of its coordinates larger. `condition`, of its matrix, magnifies what rounding the ray's coordinates, of 1
+/// or so, does.
+[[nodiscard]] inline Box quadric_box(const glm::dvec3& centre, const DoubleBox& body, double condition = 0) {
     double size = 0;
-    for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(centre[axis]) + extent[axis]);
+    for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(centre[axis]) + std::max(-body.lo[axis], body.hi[axis]));
     const double margin = 0x1p-20 * size + 0x1p-19 * condition; // |coordinate| + extent of the worst axis
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
-        box.lo[axis] = rounded_down(centre[axis] - extent[axis] - margin);
-        box.hi[axis] = rounded_up(centre[axis] + extent[axis] + margin);
+        box.lo[axis] = rounded_down(centre[axis] + body.lo[axis] - margin);
+        box.hi[axis] = rounded_up(centre[axis] + body.hi[axis] + margin);
     }
     return box;
 }

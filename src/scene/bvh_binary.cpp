@@ -7,6 +7,7 @@
 #include <atomic>
 #include <bit>
 #include <condition_variable>
+#include <cstring>
 #include <mutex>
 #include <vector>
 
@@ -15,7 +16,10 @@ namespace {
 
 constexpr std::uint32_t task_size = 8192;                ///< ranges from this size on may go to another thread
 constexpr std::uint32_t node_chunk = 1024;               ///< nodes that a thread takes at a time
+constexpr std::uint32_t keep_together = 16;              ///< references of smaller ranges stay adjacent
 constexpr std::uint32_t small_nodes = 2 * max_leaf_size; ///< at most needed below a range that may become a leaf
+
+constexpr float least_overlap = 1e-5f; ///< of the root's area: Stich, Friedrich and Dietrich's alpha
 
 struct Task {
     std::uint32_t node = 0;
@@ -68,8 +72,11 @@ struct NodeCursor {
 
 class Builder {
 public:
-    Builder(BuildRef* refs, std::size_t count, int threads)
-        : refs_(refs), count_(static_cast<std::uint32_t>(count)), threads_(threads) {
+    Builder(BuildRef* refs, std::size_t count, const SpatialRoom* spatial, int threads)
+        : refs_(refs), count_(static_cast<std::uint32_t>(count)),
+          capacity_(spatial != nullptr ? static_cast<std::uint32_t>(spatial->capacity) : count_), threads_(threads) {
+        if (spatial != nullptr) spatial_.corners_of = spatial->corners_of, is_spatial_ = true;
+        count = capacity_;
         // Untouched pages cost nothing. Every chunk but a thread's last is used but for small_nodes.
         const std::size_t used = 2 * count + 2 * count / (node_chunk / small_nodes - 1);
         nodes_ = make_scratch<BinaryNode>(used + static_cast<std::size_t>(threads + 2) * node_chunk);
@@ -79,6 +86,8 @@ public:
         BuildRange whole;
         whole.count = count_;
         measure_all(whole);
+        whole.capacity = capacity_;
+        spatial_.least_overlap = least_overlap * half_area(whole.hi - whole.lo);
         next_chunk_ = 1;
         split_top({0, whole, 0});
         if (threads_ > 1) {
@@ -86,7 +95,7 @@ public:
         } else {
             work();
         }
-        return {std::move(nodes_)};
+        return {std::move(nodes_), next_chunk_.load()};
     }
 
 private:
@@ -163,9 +172,24 @@ private:
     /// has count >= 2, lies at depth max_bvh_depth - 1 or above.
     void split(const BuildRange& range, int depth, int threads, BuildRange halves[2]) {
         if (depth + static_cast<int>(std::bit_width(range.count - 1)) < max_bvh_depth)
-            split_by_area(refs_, range, threads, halves);
+            split_by_area(refs_, range, is_spatial_ ? &spatial_ : nullptr, threads, halves);
         else
             split_by_count(refs_, range, halves);
+        share_room(range, halves);
+    }
+
+    /// Gives each half its share of the places that are left. Where a leaf may come to lie, references stay together.
+    void share_room(const BuildRange& range, BuildRange halves[2]) {
+        const std::uint32_t used = halves[0].count + halves[1].count;
+        std::uint32_t room[2] = {};
+        if (range.capacity > used && used > keep_together) {
+            const std::uint32_t spare = range.capacity - used;
+            room[0] = static_cast<std::uint32_t>(std::uint64_t{spare} * halves[0].count / used);
+            room[1] = spare - room[0];
+            std::memmove(refs_ + halves[1].first + room[0], refs_ + halves[1].first, halves[1].count * sizeof(BuildRef));
+            halves[1].first += room[0];
+        }
+        for (int side = 0; side < 2; ++side) halves[side].capacity = halves[side].count + room[side];
     }
 
     void build(NodeCursor& cursor, const Task& task) {
@@ -185,22 +209,26 @@ private:
     }
 
     /// Of one kind and at most max_leaf_size: decides bottom-up, returns the cost. The nodes of a subtree that loses are given
-    /// back.
+    /// back. With spatial splits every leaf has one primitive here: bvh_cut joins them.
     float build_small(NodeCursor& cursor, std::uint32_t node, const BuildRange& range, int depth) {
         set_node(node, range);
         const float area = nodes_[node].area;
-        const float leaf_cost = area * (0.75f + 0.25f * static_cast<float>(range.count));
-        if (range.count == 1 || cannot_pay(range, area, leaf_cost)) return leaf_cost;
+        // Eight triangles take little longer than one; quadrics are met one by one (docs/bvh.md).
+        const auto count = static_cast<float>(range.count);
+        const bool together = kind_of(refs_[range.first]) == static_cast<std::uint32_t>(PrimitiveKind::triangle);
+        const float leaf_cost = area * (together ? 0.75f + 0.25f * count : count);
+        if (range.count == 1 || (!is_spatial_ && cannot_pay(range, area, leaf_cost))) return leaf_cost;
         const NodeCursor before = cursor;
         BuildRange halves[2];
         split(range, depth, 1, halves);
         // No subtree costs less than its area.
-        if (area + half_area(halves[0].hi - halves[0].lo) + half_area(halves[1].hi - halves[1].lo) >= leaf_cost) return leaf_cost;
+        if (!is_spatial_ && area + half_area(halves[0].hi - halves[0].lo) + half_area(halves[1].hi - halves[1].lo) >= leaf_cost)
+            return leaf_cost;
         const std::uint32_t children = cursor.next;
         cursor.next += 2;
         float cost = area;
         for (std::uint32_t side = 0; side < 2; ++side) cost += build_small(cursor, children + side, halves[side], depth + 1);
-        if (cost < leaf_cost) {
+        if (cost < leaf_cost || is_spatial_) {
             nodes_[node].children = children;
             return cost;
         }
@@ -221,7 +249,9 @@ private:
     }
 
     BuildRef* refs_;
-    std::uint32_t count_;
+    std::uint32_t count_, capacity_;
+    SpatialSplits spatial_;
+    bool is_spatial_ = false;
     int threads_;
     Scratch<BinaryNode> nodes_;
     std::atomic<std::uint32_t> next_chunk_{1};
@@ -231,8 +261,8 @@ private:
 
 } // namespace
 
-BinaryTree build_binary(BuildRef* refs, std::size_t count, int threads) {
-    return Builder(refs, count, std::max(threads, 1)).run();
+BinaryTree build_binary(BuildRef* refs, std::size_t count, const SpatialRoom* spatial, int threads) {
+    return Builder(refs, count, spatial, std::max(threads, 1)).run();
 }
 
 } // namespace lanecast

@@ -24,6 +24,7 @@ struct BinCut {
     int axis = -1; ///< -1: every centre falls into one bin
     int bin = 0;   ///< first bin of the right half
     std::uint32_t left_count = 0;
+    float cost = 0;      ///< area times count, summed over both halves
     Float4 lo[2], hi[2]; ///< boxes of the halves
 };
 

@@ -1,81 +1,136 @@
 #include "scene/bvh_collapse.hpp"
 
+#include "scene/bvh_cut.hpp"
+#include "scene/error.hpp"
+#include "scene/parallel.hpp"
+
 #include <algorithm>
 
 namespace lanecast {
 namespace {
 
+constexpr std::uint32_t task_size = 8192; ///< subtrees of fewer primitives are pieces
+constexpr std::uint32_t no_piece = 0xffffffffu;
+
+/// Where a piece's root stands in the piece above.
+struct Above {
+    std::uint32_t piece, child;
+};
+
 class Collapse {
 public:
-    Collapse(const BinaryTree& tree, const BuildRef* refs, const std::uint32_t* first_slot)
-        : nodes_(tree.nodes.get()), refs_(refs) {
-        std::copy_n(first_slot, primitive_kind_count, next_slot_);
-    }
+    Collapse(const BinaryTree& tree, const std::uint32_t* cuts, const BuildRef* refs)
+        : nodes_(tree.nodes.get()), cuts_(cuts), refs_(refs) {}
 
-    WideTree run() {
-        place(0, 1);
-        return std::move(result_);
+    WideTree run(int threads) {
+        place_top(0, 1, {no_piece, 0});
+        parallel_for(threads, tree_.pieces.size(), [&](std::size_t i) {
+            WidePiece& piece = tree_.pieces[i];
+            if (piece.nodes.empty()) place(piece, piece.root, piece.level);
+        });
+        join();
+        return std::move(tree_);
     }
 
 private:
-    /// Returns the node's offset.
-    std::uint32_t place(std::uint32_t root, int level) {
-        result_.depth = std::max(result_.depth, level);
-        const auto offset = static_cast<std::uint32_t>(result_.arena_units);
-        const std::size_t index = result_.nodes.size();
-        WideNode wide{};
-        wide.offset = offset;
-        open_children(root, wide);
-        result_.arena_units += sizeof(BvhNode) / 64;
+    /// The nodes of large subtrees are pieces of their own, between those of their children.
+    void place_top(std::uint32_t root, int level, Above above) {
+        const auto index = static_cast<std::uint32_t>(tree_.pieces.size());
+        above_.push_back(above);
+        WidePiece& piece = tree_.pieces.emplace_back();
+        piece.root = root;
+        piece.level = level;
+        if (nodes_[root].count < task_size) return;
+        add_node(piece, root, level);
+        const WideNode wide = piece.nodes[0];
         for (std::uint32_t i = 0; i < wide.count; ++i)
-            if (const BinaryNode& child = nodes_[wide.child[i]]; is_leaf(child)) place_leaf(child, wide, i);
-        result_.nodes.push_back(wide);
-        for (std::uint32_t i = 0; i < wide.count; ++i)
-            if (!is_leaf(nodes_[wide.child[i]])) {
-                const std::uint32_t inner = place(wide.child[i], level + 1);
-                result_.nodes[index].place[i] = inner;
-            }
-        return offset;
+            if ((wide.leaves >> i & 1u) == 0) place_top(wide.child[i], level + 1, {index, i});
     }
 
-    void open_children(std::uint32_t root, WideNode& wide) const {
-        wide.child[0] = root; // a single leaf is the only child of its node
-        wide.count = 1;
-        std::uint32_t opened = 0;
-        while (wide.count < 8) {
-            float largest = -1;
-            for (std::uint32_t i = 0; i < wide.count; ++i)
-                if (const BinaryNode& node = nodes_[wide.child[i]]; !is_leaf(node) && node.area > largest)
-                    largest = node.area, opened = i;
-            if (largest < 0) return;
-            const std::uint32_t children = nodes_[wide.child[opened]].children;
-            std::copy_backward(wide.child + opened + 1, wide.child + wide.count, wide.child + wide.count + 1);
-            wide.child[opened] = children;
-            wide.child[opened + 1] = children + 1;
-            ++wide.count;
+    /// A subtree, depth first. Returns the offset.
+    std::uint32_t place(WidePiece& piece, std::uint32_t root, int level) const {
+        const std::size_t index = piece.nodes.size();
+        add_node(piece, root, level);
+        const std::uint32_t count = piece.nodes[index].count, leaves = piece.nodes[index].leaves;
+        for (std::uint32_t i = 0; i < count; ++i)
+            if ((leaves >> i & 1u) == 0) {
+                const std::uint32_t offset = place(piece, piece.nodes[index].child[i], level + 1);
+                piece.nodes[index].place[i] = offset;
+            }
+        return piece.nodes[index].offset;
+    }
+
+    /// The node and its leaves.
+    void add_node(WidePiece& piece, std::uint32_t root, int level) const {
+        WideNode wide{};
+        wide.offset = piece.size.units;
+        piece.size.units += sizeof(BvhNode) / 64;
+        piece.size.nodes += 1;
+        piece.depth = std::max(piece.depth, level);
+        if (is_leaf(cuts_[root])) // a single leaf is the only child of its node
+            wide.child[wide.count++] = root, wide.leaves = 1;
+        else
+            add_children(wide, root, 8);
+        for (std::uint32_t i = 0; i < wide.count; ++i)
+            if ((wide.leaves >> i & 1u) != 0) add_leaf(piece, wide, i);
+        piece.nodes.push_back(wide);
+    }
+
+    void add_children(WideNode& wide, std::uint32_t root, std::uint32_t places) const {
+        const std::uint32_t left = places > 1 ? left_places(cuts_[root], places) : 0;
+        if (left == 0) {
+            wide.leaves |= (is_leaf(cuts_[root]) ? 1u : 0u) << wide.count;
+            wide.child[wide.count++] = root;
+            return;
+        }
+        add_children(wide, nodes_[root].children, left);
+        add_children(wide, nodes_[root].children + 1, places - left);
+    }
+
+    void add_leaf(WidePiece& piece, WideNode& wide, std::uint32_t i) const {
+        const BinaryNode& leaf = nodes_[wide.child[i]];
+        const std::uint32_t kind = kind_of(refs_[leaf.first]);
+        wide.kinds |= kind << (4 * i);
+        wide.reference[i] = piece.size.references[kind];
+        piece.size.references[kind] += leaf.count;
+        wide.leaf[i] = piece.size.leaves++;
+        if (kind != static_cast<std::uint32_t>(PrimitiveKind::triangle)) return;
+        wide.place[i] = piece.size.units;
+        piece.size.units += block_units(leaf.count);
+    }
+
+    /// Puts the pieces behind each other.
+    void join() {
+        std::uint64_t units = 0;
+        for (std::size_t p = 0; p < tree_.pieces.size(); ++p) {
+            WidePiece& piece = tree_.pieces[p];
+            piece.begin = tree_.size;
+            units += piece.size.units;
+            if (units * 64 > largest_arena) throw Error(ExitCode::memory, "the tree would exceed 2 GiB");
+            tree_.size.units += piece.size.units;
+            tree_.size.nodes += piece.size.nodes;
+            tree_.size.leaves += piece.size.leaves;
+            for (int kind = 0; kind < primitive_kind_count; ++kind) tree_.size.references[kind] += piece.size.references[kind];
+            tree_.depth = std::max(tree_.depth, piece.depth);
+            if (const Above above = above_[p]; above.piece != no_piece) {
+                WidePiece& parent = tree_.pieces[above.piece]; // comes first, so its begin is known
+                parent.nodes[0].place[above.child] = piece.begin.units - parent.begin.units;
+            }
         }
     }
 
-    void place_leaf(const BinaryNode& leaf, WideNode& wide, std::uint32_t i) {
-        const std::uint32_t kind = kind_of(refs_[leaf.first]);
-        wide.slot[i] = next_slot_[kind];
-        next_slot_[kind] += leaf.count;
-        wide.leaf[i] = result_.leaves++;
-        if (kind != static_cast<std::uint32_t>(PrimitiveKind::triangle)) return;
-        wide.place[i] = static_cast<std::uint32_t>(result_.arena_units);
-        result_.arena_units += block_units(leaf.count);
-    }
-
     const BinaryNode* nodes_;
+    const std::uint32_t* cuts_;
     const BuildRef* refs_;
-    std::uint32_t next_slot_[primitive_kind_count];
-    WideTree result_;
+    WideTree tree_;
+    std::vector<Above> above_; ///< of each piece
 };
 
 } // namespace
 
-WideTree collapse(const BinaryTree& tree, const BuildRef* refs, const std::uint32_t* first_slot) {
-    return Collapse(tree, refs, first_slot).run();
+WideTree collapse(const BinaryTree& tree, const BuildRef* refs, bool join_leaves, int threads) {
+    const Cuts cuts = find_cuts(tree, refs, join_leaves, threads);
+    return Collapse(tree, cuts.get(), refs).run(threads);
 }
 
 } // namespace lanecast

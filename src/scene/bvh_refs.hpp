@@ -44,6 +44,7 @@ inline constexpr float empty_lo = 1e30f; ///< lower corner of an empty box; the 
 /// Primitives that lie together, with what a split needs to know of them.
 struct BuildRange {
     std::uint32_t first = 0, count = 0;
+    std::uint32_t capacity = 0;      ///< places from `first` on that are its own
     std::uint32_t kinds = 0;         ///< bit per PrimitiveKind
     Float4 lo{}, hi{};               ///< box of the primitives
     Float4 centre_lo{}, centre_hi{}; ///< box of lo + hi of each, twice its centre

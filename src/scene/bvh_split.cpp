@@ -150,10 +150,11 @@ void measure(const BuildRef* refs, BuildRange& range) {
     }
 }
 
-void split_by_area(BuildRef* refs, const BuildRange& range, int threads, BuildRange halves[2]) {
+void split_by_area(BuildRef* refs, const BuildRange& range, const SpatialSplits* spatial, int threads, BuildRange halves[2]) {
     if (range.count <= sweep_limit) return split_exactly(refs, range, halves);
     const BinMapping mapping = make_bin_mapping(range);
     const BinCut cut = find_bin_cut(refs, range, mapping, threads);
+    if (cut.axis >= 0 && spatial != nullptr && split_by_plane(refs, range, cut, *spatial, halves)) return;
     if (cut.axis >= 0) return partition_at_cut(refs, range, mapping, cut, halves);
 
     std::uint32_t left_count = range.count / 2;

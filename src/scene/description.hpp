@@ -40,10 +40,18 @@ struct Sphere {
     double radius = 1;
     glm::dvec3 position{0}; ///< applied before the transformations
 };
-/// Axis y, centred on the origin, capped.
+/// Axis y, centred on the origin.
 struct Cylinder {
     double radius = 1;
     double height = 1;
+    bool capped = true;
+};
+/// A cone or a truncated one: axis y, its ends at -height / 2 and height / 2.
+struct Cone {
+    double base_radius = 1; ///< below
+    double apex_radius = 0; ///< above
+    double height = 1;
+    bool capped = true;
 };
 /// Infinite; the side the normal points to is outside.
 struct Plane {
@@ -57,7 +65,7 @@ struct Mesh {
     std::vector<std::uint32_t> triangle_material;        ///< per triangle, an index into `materials`; empty with it
     std::string file;                                    ///< empty for triangles given in the scene
 };
-using Shape = std::variant<Sphere, Cylinder, Plane, Mesh>;
+using Shape = std::variant<Sphere, Cylinder, Cone, Plane, Mesh>;
 
 struct Object {
     Shape shape;

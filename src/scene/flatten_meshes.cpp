@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <vector>
 
 namespace lanecast {
 namespace {
@@ -62,7 +61,7 @@ std::array<std::uint32_t, 3> wound(const Mesh& mesh, bool mirrored, std::uint32_
 
 } // namespace
 
-DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
+std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads) {
     // Which vertices are used: several threads may set the same byte.
     const auto is_used = std::make_unique<unsigned char[]>(objects.vertices);
     const std::vector<Piece> triangles = cut_triangles(objects);
@@ -82,8 +81,8 @@ DoubleBox mesh_bounds(const FlatObjects& objects, int threads) {
         });
         boxes[p] = box;
     });
-    DoubleBox bounds;
-    for (const DoubleBox& box : boxes) include(bounds, box);
+    std::vector<DoubleBox> bounds(objects.objects.size());
+    for (std::size_t p = 0; p < boxes.size(); ++p) include(bounds[vertices[p].object->index], boxes[p]);
     return bounds;
 }
 
@@ -138,8 +137,15 @@ std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& ver
     return dropped;
 }
 
+std::array<const float*, 3> corners_of(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef& ref) {
+    const FlatObject& flat = objects.objects[object_of(ref)];
+    const auto& triangle = std::get<Mesh>(flat.object->shape).triangles[ref.item];
+    const auto* const own = vertices.positions.get() + flat.first_vertex;
+    return {own[triangle[0]].data(), own[triangle[1]].data(), own[triangle[2]].data()};
+}
+
 void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
-                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records) {
+                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* const* records) {
     auto* const rows = reinterpret_cast<float*>(arena + std::size_t{block_offset} * 64);
     const float* corner[max_leaf_size][3];
     for (std::uint32_t lane = 0; lane < n; ++lane) { // only look-ups, so that their cache misses overlap
@@ -154,8 +160,9 @@ void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertic
             rows[(3 + axis) * n + lane] = v1[axis];
             rows[(6 + axis) * n + lane] = v2[axis];
         }
-        triangle_normal(v0, v1, v2, records[lane].normal);
-        records[lane].block = block_offset << 6 | (n - 1) << 3 | lane;
+        if (records[lane] == nullptr) continue;
+        triangle_normal(v0, v1, v2, records[lane]->normal);
+        records[lane]->block = block_offset << 6 | (n - 1) << 3 | lane;
     }
     std::fill(rows + 9 * n, rows + 16 * block_units(n), 0.0f); // the same bytes every time
 }

@@ -8,11 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace lanecast {
 
-/// Bounds of the vertices that triangles use, of all meshes, in world units.
-[[nodiscard]] DoubleBox mesh_bounds(const FlatObjects& objects, int threads);
+/// For each object of the file the bounds of the vertices that its triangles use, in world units; empty where it is no mesh.
+[[nodiscard]] std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads);
 
 /// Normalised float vertices of all meshes, at FlatObject::first_vertex.
 struct BakedVertices {
@@ -27,9 +28,13 @@ struct BakedVertices {
 [[nodiscard]] std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads);
 inline constexpr std::uint32_t dropped_source = 0xffffffffu;
 
-/// Writes the block of n triangles at arena + 64 * block_offset, 64 * block_units(n) bytes, and their records. Mirroring
-/// transforms flip the winding.
+/// Corners in their order in the file.
+[[nodiscard]] std::array<const float*, 3> corners_of(const FlatObjects& objects, const BakedVertices& vertices,
+                                                     const BuildRef& ref);
+
+/// Writes the block of n triangles at arena + 64 * block_offset, 64 * block_units(n) bytes, and the records that are not null.
+/// Mirroring transforms flip the winding.
 void write_triangle_leaf(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef* refs, std::uint32_t n,
-                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* records);
+                         std::uint32_t block_offset, unsigned char* arena, TriangleRecord* const* records);
 
 } // namespace lanecast

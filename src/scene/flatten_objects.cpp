@@ -11,7 +11,9 @@ namespace {
 
 PrimitiveKind kind_of_shape(const Shape& shape, const glm::dmat3& linear) {
     if (std::holds_alternative<Mesh>(shape)) return PrimitiveKind::triangle;
-    if (std::holds_alternative<Cylinder>(shape)) return PrimitiveKind::cylinder;
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+        return cylinder->capped ? PrimitiveKind::cylinder : PrimitiveKind::open_cone;
+    if (const auto* cone = std::get_if<Cone>(&shape)) return cone->capped ? PrimitiveKind::cone : PrimitiveKind::open_cone;
     if (std::holds_alternative<Plane>(shape)) return PrimitiveKind::plane;
     return classify(linear) == TransformClass::similarity ? PrimitiveKind::sphere : PrimitiveKind::ellipsoid;
 }

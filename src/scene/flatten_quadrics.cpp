@@ -13,25 +13,36 @@ namespace {
 
 constexpr double smallest_size = 0x1p-60; ///< of a body; its square is still a normal float
 constexpr double high_condition = 1e4;    ///< 24 bits of mantissa leave about three digits
-constexpr double finest_ratio = 0x1p-22;  ///< of a radius to its centre's coordinates: a few ulp
 
 struct Body {
-    glm::dmat3 linear; ///< from the unit sphere or the unit cylinder, world units
+    glm::dmat3 linear; ///< from the unit sphere, cylinder or cone, world units
     glm::dvec3 centre;
+    double taper = 0; ///< of a cone
 };
 
 Body body_of(const FlatObject& flat) {
     const AffineTransform& t = flat.world_from_object;
     if (const auto* sphere = std::get_if<Sphere>(&flat.object->shape))
         return {t.linear * sphere->radius, apply(t, sphere->position)};
-    const auto& cylinder = std::get<Cylinder>(flat.object->shape);
-    return {glm::dmat3(t.linear[0] * cylinder.radius, t.linear[1] * cylinder.height, t.linear[2] * cylinder.radius),
-            t.translation};
+    const auto along_y = [&](double radius, double height, double taper) {
+        return Body{glm::dmat3(t.linear[0] * radius, t.linear[1] * height, t.linear[2] * radius), t.translation, taper};
+    };
+    if (const auto* cylinder = std::get_if<Cylinder>(&flat.object->shape)) return along_y(cylinder->radius, cylinder->height, 0);
+    const auto& cone = std::get<Cone>(flat.object->shape);
+    const double radius = 0.5 * (cone.base_radius + cone.apex_radius);
+    const auto taper = static_cast<float>((cone.apex_radius - cone.base_radius) / radius); // as kernels know it
+    return along_y(radius, cone.height, double{taper});
 }
 
-glm::dvec3 extent_of(PrimitiveKind kind, const glm::dmat3& linear) {
-    return kind == PrimitiveKind::cylinder ? cylinder_extent(linear) : ellipsoid_extent(linear);
+/// About its centre.
+DoubleBox box_of(PrimitiveKind kind, const glm::dmat3& linear, double taper) {
+    if (kind != PrimitiveKind::sphere && kind != PrimitiveKind::ellipsoid) return cone_box(linear, taper);
+    const glm::dvec3 extent = ellipsoid_extent(linear);
+    return {-extent, extent};
 }
+
+/// Half its edges.
+glm::dvec3 extent_of(const DoubleBox& box) { return (box.hi - box.lo) * 0.5; }
 
 void store(float* row_major, const glm::dmat3& m) {
     for (int row = 0; row < 3; ++row)
@@ -58,31 +69,25 @@ BuildRef ref_of(const FlatObject& flat, const Box& box, std::size_t item) {
     throw Error(ExitCode::scene, label(flat) + ": is smaller than 2^-60 of the scene's geometry");
 }
 
-void warn_if_fine(const FlatObject& flat, double size, const glm::dvec3& centre, Quadrics& quadrics) {
-    const double coordinate = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
-    if (size < finest_ratio * coordinate)
-        quadrics.warnings.push_back(label(flat) + ": is finer than the grid of single precision at its place");
-}
-
 BuildRef add_sphere(const FlatObject& flat, const glm::dvec3& centre, const Normalisation& normalisation, Quadrics& quadrics) {
     const double radius =
         std::get<Sphere>(flat.object->shape).radius * uniform_scale(flat.world_from_object.linear) * normalisation.scale;
     if (!(radius >= smallest_size)) too_small(flat);
-    warn_if_fine(flat, radius, centre, quadrics);
     SphereRecord record{};
     for (int axis = 0; axis < 3; ++axis) record.centre[axis] = static_cast<float>(centre[axis]) + 0.0f;
     record.radius = static_cast<float>(radius);
     quadrics.spheres.push_back(record);
     const glm::dvec3 stored{record.centre[0], record.centre[1], record.centre[2]};
-    return ref_of(flat, quadric_box(stored, glm::dvec3(double{record.radius})), quadrics.spheres.size() - 1);
+    return ref_of(flat, quadric_box(stored, {glm::dvec3(-double{record.radius}), glm::dvec3(double{record.radius})}),
+                  quadrics.spheres.size() - 1);
 }
 
 } // namespace
 
 DoubleBox quadric_bounds(const FlatObject& object) {
     const Body body = body_of(object);
-    const glm::dvec3 extent = extent_of(object.kind, body.linear);
-    return {body.centre - extent, body.centre + extent};
+    const DoubleBox box = box_of(object.kind, body.linear, body.taper);
+    return {body.centre + box.lo, body.centre + box.hi};
 }
 
 bool is_exact_quadric(const FlatObject& object, const Normalisation& normalisation) {
@@ -95,7 +100,7 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     if (flat.kind == PrimitiveKind::sphere) return add_sphere(flat, centre, normalisation, quadrics);
 
     const glm::dmat3 linear = body.linear * normalisation.scale;
-    const glm::dvec3 extent = extent_of(flat.kind, linear);
+    const glm::dvec3 extent = extent_of(box_of(flat.kind, linear, body.taper));
     if (!(std::max({extent.x, extent.y, extent.z}) >= smallest_size)) too_small(flat);
     const glm::dmat3 inverse = inverted(linear);
     const double conditioning = condition(linear, inverse);
@@ -110,18 +115,18 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     AffineRecord record{};
     for (int axis = 0; axis < 3; ++axis) record.translation[axis] = static_cast<float>(centre[axis]) + 0.0f;
     store(record.object_from_world, inverse);
+    record.taper = static_cast<float>(body.taper);
     const glm::dmat3 stored = inverted(loaded(record.object_from_world));
     if (!is_finite(stored)) throw Error(ExitCode::scene, label(flat) + ": is too flat for single precision");
-    const glm::dvec3 stored_extent = extent_of(flat.kind, stored);
+    const DoubleBox stored_box = box_of(flat.kind, stored, body.taper);
+    const glm::dvec3 stored_extent = extent_of(stored_box);
     if (!(std::min({stored_extent.x, stored_extent.y, stored_extent.z}) >= smallest_size)) too_small(flat);
-    warn_if_fine(flat, std::max({extent.x, extent.y, extent.z}), centre, quadrics);
     AffineShadingRecord shading{};
     store(shading.world_from_object, stored);
     quadrics.affines.push_back(record);
     quadrics.affine_shading.push_back(shading);
     const glm::dvec3 stored_centre{record.translation[0], record.translation[1], record.translation[2]};
-    return ref_of(flat, quadric_box(stored_centre, stored_extent, conditioning > 4 ? conditioning : 0),
-                  quadrics.affines.size() - 1);
+    return ref_of(flat, quadric_box(stored_centre, stored_box, conditioning > 4 ? conditioning : 0), quadrics.affines.size() - 1);
 }
 
 PlaneRecord plane_record(const Plane& plane, const Normalisation& normalisation) {

@@ -1,5 +1,5 @@
 #pragma once
-// Spheres, ellipsoids, cylinders and planes as records.
+// Spheres, ellipsoids, cylinders, cones and planes as records.
 
 #include "scene/bvh_refs.hpp"
 #include "scene/flatten_objects.hpp"
@@ -19,7 +19,7 @@ namespace lanecast {
 /// In file order; BuildRef::item is the index here.
 struct Quadrics {
     std::vector<SphereRecord> spheres;
-    std::vector<AffineRecord> affines; ///< ellipsoids and cylinders
+    std::vector<AffineRecord> affines; ///< ellipsoids, cylinders and cones
     std::vector<AffineShadingRecord> affine_shading;
     std::vector<std::string> warnings;
 };

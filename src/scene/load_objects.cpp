@@ -47,7 +47,7 @@ Mesh load_mesh_file(SceneReader& reader, NodeId node, const Material& material) 
     if (file.empty() || file.find('\0') != std::string::npos)
         fail(reader, node, "must be the name of a mesh file, got " + shown(reader, node));
     const std::filesystem::path path = reader.directory / file;
-    const std::string name = printable(path.string(), 4096);
+    const std::string name = printable_path(path);
     const MeshFormat format = mesh_format(path);
     if (format == MeshFormat::unknown)
         fail(reader, node, "must end in .obj or .ply, got " + shown(reader, node), ExitCode::asset);
@@ -66,6 +66,10 @@ Mesh load_mesh_file(SceneReader& reader, NodeId node, const Material& material) 
             else
                 ++reader.remarks_dropped;
         }
+        if (warnings.dropped > 0 && reader.mesh_warnings.size() < max_remarks)
+            reader.mesh_warnings.push_back(name + ": warning: " + more_warnings(warnings.dropped));
+        else
+            reader.remarks_dropped += warnings.dropped;
         return out;
     } catch (const Error& error) { // the reader does not know which object asks
         throw Error(error.code(), error.what() + asked_by());
@@ -105,7 +109,15 @@ Object load_object(SceneReader& reader, NodeId node) {
         Cylinder cylinder;
         block.read("radius", cylinder.radius);
         block.read("height", cylinder.height);
+        block.read("capped", cylinder.capped);
         out.shape = cylinder;
+    } else if (spec.name == "cone") {
+        Cone cone;
+        block.read("base_radius", cone.base_radius);
+        block.read("apex_radius", cone.apex_radius);
+        block.read("height", cone.height);
+        block.read("capped", cone.capped);
+        out.shape = cone;
     } else if (spec.name == "plane") {
         Plane plane;
         block.read("position", plane.position);

@@ -37,8 +37,7 @@ std::vector<std::string> formatted_warnings(SceneReader& reader) {
     if (reader.document.trailing_text)
         out.push_back(format_diagnostic(reader.name, source, find_trailing_text(source), "warning", trailing_message));
     std::ranges::move(reader.mesh_warnings, std::back_inserter(out));
-    if (reader.remarks_dropped > 0)
-        out.push_back(reader.name + ": warning: " + std::to_string(reader.remarks_dropped) + " more warnings");
+    if (reader.remarks_dropped > 0) out.push_back(reader.name + ": warning: " + more_warnings(reader.remarks_dropped));
     return out;
 }
 
@@ -68,9 +67,9 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const st
 }
 
 LoadedScene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    const FileBytes bytes = read_file(file);
+    const FileBytes bytes = read_file_or_pipe(file);
     if (!bytes.fault.empty())
-        throw Error(ExitCode::scene, printable(file.string(), 4096) + ": error: cannot read the scene: " + bytes.fault);
+        throw Error(ExitCode::scene, printable_path(file) + ": error: cannot read the scene: " + bytes.fault);
     return parse_scene(bytes.view(), file.string(), file.parent_path(), options);
 }
 

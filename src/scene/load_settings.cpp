@@ -25,7 +25,7 @@ RenderSettings read_switches(const Block& block) {
     block.read("refraction", out.refraction);
     block.read("schlick", out.schlick);
     block.read("planes", out.planes);
-    block.read("bvh", out.bvh);
+    block.read_choice("bvh", out.bvh);
     block.read("soft_shadows", out.soft_shadows);
     block.read("depth", out.depth);
     block.read("cutoff", out.cutoff);

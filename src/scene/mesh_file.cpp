@@ -1,13 +1,11 @@
 #include "scene/mesh_file.hpp"
 
-#include <algorithm>
+#include "scene/text_tools.hpp"
 
 namespace lanecast {
 
 MeshFormat mesh_format(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const std::string extension = lower_case(file.extension().string());
     if (extension == ".obj") return MeshFormat::obj;
     return extension == ".ply" ? MeshFormat::ply : MeshFormat::unknown;
 }

@@ -3,6 +3,7 @@
 
 #include "scene/description.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,7 +16,8 @@ inline constexpr std::size_t max_mesh_elements = std::size_t{1} << 27;
 
 struct MeshWarnings {
     bool strict = false;                    ///< the first one is an error
-    std::vector<std::string> messages = {}; ///< complete
+    std::vector<std::string> messages = {}; ///< complete; the first ten
+    std::size_t dropped = 0;                ///< how many came after those
 };
 
 enum class MeshFormat { unknown, obj, ply };

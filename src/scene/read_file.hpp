@@ -16,7 +16,10 @@ struct FileBytes {
     [[nodiscard]] std::string_view view() const { return {data.get(), size}; }
 };
 
-/// Regular files and pipes.
+/// Anything but a regular file is a fault, and never waited for.
 [[nodiscard]] FileBytes read_file(const std::filesystem::path& file);
+
+/// A pipe, too, to its end: of what a program writes it is waited for however long it takes; for a program, five seconds.
+[[nodiscard]] FileBytes read_file_or_pipe(const std::filesystem::path& file);
 
 } // namespace lanecast

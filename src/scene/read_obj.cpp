@@ -36,7 +36,10 @@ struct ObjReader {
 
     void warn(const char* place, const std::string& what) {
         if (warnings.strict) cursor.fail(place, what + std::string(strict_suffix));
-        if (warnings.messages.size() < max_mesh_warnings) warnings.messages.push_back(cursor.message(place, "warning", what));
+        if (warnings.messages.size() < max_mesh_warnings)
+            warnings.messages.push_back(cursor.message(place, "warning", what));
+        else
+            ++warnings.dropped;
     }
 
     void read_vertex() {
@@ -104,7 +107,7 @@ struct ObjReader {
             warn(place, "cannot read the materials `" + printable(file_name) + "`: " + bytes.fault);
             return;
         }
-        read_mtl(bytes.view(), printable(file.string(), 4096), library);
+        read_mtl(bytes.view(), printable_path(file), library);
         mesh.triangle_material.resize(mesh.triangles.size());
     }
 

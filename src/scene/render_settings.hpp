@@ -7,6 +7,13 @@ namespace lanecast {
 /// ISA. `reference`: the scalar program in double, the truth that the others are measured against.
 enum class Precision { balanced, reference };
 
+/// The tree; the picture is the same with each.
+enum class BvhMode {
+    off,      ///< every ray is tested against every primitive, for checking
+    standard, ///< `default`
+    quality,  ///< with spatial splits: takes several times longer to build
+};
+
 enum class AntiAliasMode {
     off,
     cross, ///< four more rays per pixel that hits something: up, down, left, right; the five are averaged
@@ -32,7 +39,7 @@ struct RenderSettings {
     bool refraction = true;   ///< off: transmitted rays go straight through
     bool schlick = false;
     bool planes = true; ///< off: infinite planes are left out of the scene
-    bool bvh = true;    ///< off: every ray is tested against every primitive, for checking
+    BvhMode bvh = BvhMode::standard;
     AntiAliasing anti_aliasing;
     int soft_shadows = 0; ///< shadow rays per light that has a `radius` or an `angle`; 0: hard shadows; at most 1024
     int depth = 8;        ///< the last level that is traced; the camera ray is level 0; at most 1024

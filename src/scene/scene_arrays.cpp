@@ -16,6 +16,7 @@ SceneView view(const SceneArrays& arrays) noexcept {
     v.scene_id = arrays.scene_id.data();
     v.object = arrays.object.data();
     v.material = arrays.material.data();
+    v.shared_slots = arrays.shared_slots.data();
     v.materials = arrays.materials.data();
     v.lights = arrays.lights.data();
     std::copy(std::begin(arrays.first_slot), std::end(arrays.first_slot), v.first_slot);
@@ -32,7 +33,7 @@ std::size_t memory_bytes(const SceneArrays& arrays) noexcept {
     const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
     return arrays.arena_bytes + bytes(arrays.leaves) + bytes(arrays.triangles) + bytes(arrays.spheres) + bytes(arrays.affines) +
            bytes(arrays.affine_shading) + bytes(arrays.planes) + bytes(arrays.scene_id) + bytes(arrays.object) +
-           bytes(arrays.material) + bytes(arrays.materials) + bytes(arrays.lights);
+           bytes(arrays.material) + bytes(arrays.shared_slots) + bytes(arrays.materials) + bytes(arrays.lights);
 }
 
 } // namespace lanecast

@@ -43,6 +43,7 @@ struct SceneArrays {
     std::vector<std::uint32_t> scene_id;
     std::vector<std::uint32_t> object;
     std::vector<std::uint32_t> material;
+    std::vector<std::uint32_t> shared_slots;
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
     std::uint32_t first_slot[primitive_kind_count + 1] = {};
@@ -55,7 +56,7 @@ struct SceneArrays {
     glm::dvec3 bounds_min{0}, bounds_max{0}; ///< of the bounded geometry, in world units; min > max when there is none
     std::uint32_t degenerate_triangles = 0;  ///< dropped
     BvhQuality quality;
-    std::vector<std::string> warnings; ///< ill-conditioned transforms, geometry finer than the float grid
+    std::vector<std::string> warnings; ///< dropped triangles, ill-conditioned transforms, objects too small for the float grid
     double bake_seconds = 0;           ///< transforms, records
     double build_seconds = 0;          ///< the tree
 };

@@ -64,6 +64,7 @@ constexpr KeySpec camera_keys[] = {{.name = "field", .range = {.low = 0, .high =
 
 // The order of the words is that of the enumerations.
 constexpr std::array<std::string_view, 4> anti_alias_modes{"off", "cross", "grid", "edge"};
+constexpr std::array<std::string_view, 3> bvh_modes{"off", "default", "quality"};
 constexpr std::array<std::string_view, 2> precisions{"balanced", "reference"};
 
 constexpr KeySpec anti_aliasing_keys[] = {{.name = "mode", .kind = choice, .required = true, .choices = anti_alias_modes},
@@ -81,7 +82,7 @@ constexpr KeySpec render_keys[] = {switch_key("ambient"),
                                    switch_key("refraction"),
                                    switch_key("schlick"),
                                    switch_key("planes"),
-                                   switch_key("bvh"),
+                                   {.name = "bvh", .kind = switch_or_choice, .choices = bvh_modes},
                                    {.name = "anti_aliasing", .kind = block},
                                    {.name = "soft_shadows", .kind = whole, .range = {.low = 0, .high = 1024}},
                                    {.name = "depth", .kind = whole, .range = {.low = 0, .high = 1024}},
@@ -96,12 +97,25 @@ constexpr KeySpec material_keys[] = {color_key("ambient"),
                                      {.name = "shininess", .range = not_negative},
                                      {.name = "refraction", .range = not_negative}};
 
-constexpr std::array<std::string_view, 1> sphere_type{"sphere"}, cylinder_type{"cylinder"}, plane_type{"plane"},
-    mesh_type{"mesh"};
+constexpr std::array<std::string_view, 1> sphere_type{"sphere"}, cylinder_type{"cylinder"}, cone_type{"cone"},
+    plane_type{"plane"}, mesh_type{"mesh"};
 constexpr KeySpec sphere_keys[] = {type_key(sphere_type), length_key("radius"), point_key("position"),
                                    transformations_key,   material_key,         name_key};
-constexpr KeySpec cylinder_keys[] = {type_key(cylinder_type), length_key("radius"), length_key("height"),
-                                     transformations_key,     material_key,         name_key};
+constexpr KeySpec cylinder_keys[] = {type_key(cylinder_type),
+                                     length_key("radius"),
+                                     length_key("height"),
+                                     switch_key("capped"),
+                                     transformations_key,
+                                     material_key,
+                                     name_key};
+constexpr KeySpec cone_keys[] = {type_key(cone_type),
+                                 length_key("base_radius"),
+                                 {.name = "apex_radius", .range = not_negative},
+                                 length_key("height"),
+                                 switch_key("capped"),
+                                 transformations_key,
+                                 material_key,
+                                 name_key};
 constexpr KeySpec plane_keys[] = {type_key(plane_type), point_key("position", required), direction_key("normal", required),
                                   material_key, name_key};
 constexpr KeySpec mesh_keys[] = {type_key(mesh_type),
@@ -112,6 +126,7 @@ constexpr KeySpec mesh_keys[] = {type_key(mesh_type),
                                  name_key};
 constexpr BlockSpec shape_blocks[] = {{"sphere", "a sphere", sphere_keys},
                                       {"cylinder", "a cylinder", cylinder_keys},
+                                      {"cone", "a cone", cone_keys},
                                       {"plane", "a plane", plane_keys},
                                       {"mesh", "a mesh", mesh_keys}};
 
@@ -177,11 +192,23 @@ const std::span<const BlockSpec> lights{light_blocks};
 } // namespace format
 
 std::span<const BlockSpec* const> scene_format() {
-    static const BlockSpec* const blocks[] = {
-        &format::scene,    &format::camera,           &format::render,           &format::anti_aliasing,
-        &format::material, &shape_blocks[0],          &shape_blocks[1],          &shape_blocks[2],
-        &shape_blocks[3],  &transformation_blocks[0], &transformation_blocks[1], &transformation_blocks[2],
-        &light_blocks[0],  &light_blocks[1],          &light_blocks[2],          &light_blocks[3]};
+    static const BlockSpec* const blocks[] = {&format::scene,
+                                              &format::camera,
+                                              &format::render,
+                                              &format::anti_aliasing,
+                                              &format::material,
+                                              &shape_blocks[0],
+                                              &shape_blocks[1],
+                                              &shape_blocks[2],
+                                              &shape_blocks[3],
+                                              &shape_blocks[4],
+                                              &transformation_blocks[0],
+                                              &transformation_blocks[1],
+                                              &transformation_blocks[2],
+                                              &light_blocks[0],
+                                              &light_blocks[1],
+                                              &light_blocks[2],
+                                              &light_blocks[3]};
     return blocks;
 }
 
@@ -203,6 +230,12 @@ std::string describe(const KeySpec& key) {
     case choice: {
         std::string out = key.choices.size() == 1 ? "" : "one of ";
         for (const std::string_view word : key.choices) out.append(out.ends_with('`') ? ", `" : "`").append(word).append("`");
+        return out;
+    }
+    case switch_or_choice: {
+        std::string out = "true, false";
+        for (const std::string_view word : key.choices)
+            out.append(word == key.choices.back() ? " or `" : ", `").append(word).append("`");
         return out;
     }
     case numbers:

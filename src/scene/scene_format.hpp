@@ -18,8 +18,9 @@ enum class ValueKind {
     whole, ///< a number without a fraction
     boolean,
     text,
-    choice,  ///< one of a few words
-    numbers, ///< a list of `length` numbers
+    choice,           ///< one of a few words
+    switch_or_choice, ///< the same; false means the first of them, true the second
+    numbers,          ///< a list of `length` numbers
     wholes,
     block, ///< an object with a table of its own
     list,  ///< checked by the code that reads it
@@ -58,7 +59,7 @@ struct BlockSpec {
 
 namespace format {
 extern const BlockSpec scene, camera, render, anti_aliasing, material;
-extern const std::span<const BlockSpec> shapes;          ///< sphere, cylinder, plane, mesh: by `type`
+extern const std::span<const BlockSpec> shapes;          ///< sphere, cylinder, cone, plane, mesh: by `type`
 extern const std::span<const BlockSpec> transformations; ///< rotation, scale, translate
 extern const std::span<const BlockSpec> lights;          ///< ambient, directional, point, spot
 } // namespace format

@@ -8,7 +8,7 @@
 namespace lanecast {
 
 std::string message_in_scene(const std::filesystem::path& file, std::string_view severity, std::string_view message) {
-    const std::string name = printable(file.string(), 4096);
+    const std::string name = printable_path(file);
     const std::string unplaced = name + ": " + std::string(severity) + ": " + std::string(message);
     std::error_code ignored;
     if (!message.starts_with('/') || !std::filesystem::is_regular_file(file, ignored)) return unplaced; // a pipe is empty by now

@@ -65,6 +65,9 @@ void check_value(const SceneReader& reader, const KeySpec& key, NodeId node) {
         return check_numbers(reader, key, node);
     case ValueKind::choice:
         return check_choice(reader, key, node);
+    case ValueKind::switch_or_choice:
+        if (nodes(reader)[node].kind != JsonKind::boolean) check_choice(reader, key, node);
+        return;
     case ValueKind::boolean:
         return check_kind(JsonKind::boolean);
     case ValueKind::text:
@@ -102,6 +105,8 @@ void warn(SceneReader& reader, NodeId node, const std::string& message) {
     else
         ++reader.remarks_dropped;
 }
+
+std::string more_warnings(std::size_t count) { return std::to_string(count) + (count == 1 ? " more warning" : " more warnings"); }
 
 std::string shown(const SceneReader& reader, NodeId node) {
     const JsonNode& value = nodes(reader)[node];
@@ -212,6 +217,7 @@ void Block::read(std::string_view key, std::array<int, 2>& value) const {
 int Block::choice(std::string_view key) const {
     for (std::size_t i = 0; i < spec_.keys.size(); ++i) {
         if (spec_.keys[i].name != key || values_[i] == no_node) continue;
+        if (nodes(reader_)[values_[i]].kind == JsonKind::boolean) return nodes(reader_)[values_[i]].boolean ? 1 : 0;
         const std::string_view word = text_of(reader_.document, values_[i]);
         for (std::size_t j = 0; j < spec_.keys[i].choices.size(); ++j)
             if (spec_.keys[i].choices[j] == word) return static_cast<int>(j);

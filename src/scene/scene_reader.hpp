@@ -39,6 +39,9 @@ void warn(SceneReader& reader, NodeId node, const std::string& message);
 [[nodiscard]] std::string message_at(const SceneReader& reader, NodeId node, std::string_view severity,
                                      const std::string& message);
 
+/// "1 more warning", "20 more warnings".
+[[nodiscard]] std::string more_warnings(std::size_t count);
+
 /// "-1", "\"abc\"", "a list of 4": to follow "got".
 [[nodiscard]] std::string shown(const SceneReader& reader, NodeId node);
 

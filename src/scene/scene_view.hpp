@@ -2,15 +2,24 @@
 // BOUNDARY: the flattened scene as kernels see it. Plain data, no function bodies, compiled by baseline and per-ISA code.
 //
 // Lengths are normalised: p = (p_world - centre) * scale, scale a power of two, so bounded geometry has coordinates of
-// about 1. Primitives are numbered by *slot*: triangles first, then spheres, ellipsoids, cylinders and planes, each kind in
-// leaf order. Attributes that one step reads together are one record.
+// about 1. Primitives are numbered by *slot*: triangles first, then spheres, ellipsoids, cylinders, cones, open
+// cones and planes, each kind in leaf order. Attributes that one step reads together are one record.
 
 #include <cstdint>
 
 namespace lanecast {
 
-enum class PrimitiveKind : std::uint32_t { triangle = 0, sphere = 1, ellipsoid = 2, cylinder = 3, plane = 4 };
-inline constexpr int primitive_kind_count = 5;
+/// At most 8. A cylinder or cone is capped; open ones, cylinders too, are `open_cone`.
+enum class PrimitiveKind : std::uint32_t {
+    triangle = 0,
+    sphere = 1,
+    ellipsoid = 2,
+    cylinder = 3,
+    cone = 4,
+    open_cone = 5,
+    plane = 6
+};
+inline constexpr int primitive_kind_count = 7;
 
 /// Eight children in structure-of-arrays form. Unused slots have lo = +1e30, hi = -1e30 and child 0, which no ray enters.
 /// Boxes contain their primitives and were rounded outwards. 256 bytes, so four cache lines.
@@ -30,13 +39,17 @@ inline constexpr std::uint64_t child_kind_mask = 7;
 inline constexpr std::uint64_t child_count_mask = 7;
 inline constexpr std::uint64_t child_block_mask = 0x1ffffff;
 inline constexpr int max_leaf_size = 8;
+
+/// Kind of a leaf of triangles some of which stand in other leaves as well: instead of a slot, the word gives the place in
+/// SceneView::shared_slots where the slot of each is found. Only `--bvh quality` makes such leaves.
+inline constexpr std::uint32_t leaf_of_shared = 7;
 inline constexpr int max_bvh_depth = 64; ///< levels of nodes; a traversal stack needs 7 * max_bvh_depth + 1 entries
 
 // A triangle leaf block of n triangles starts on a 64-byte boundary and has 9 rows of n floats: v0.x v0.y v0.z v1.x .. v2.z.
 // Reading 8 floats from any row start stays inside the arena.
 
 struct TriangleRecord {
-    float normal[3];    ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
+    float normal[3];     ///< unit, by the winding: the outside is where v0 v1 v2 turn counter-clockwise
     std::uint32_t block; ///< offset in 64-byte units << 6 | (n - 1) << 3 | lane
 };
 
@@ -45,11 +58,13 @@ struct alignas(16) SphereRecord {
     float radius;
 };
 
-/// Ellipsoids (unit sphere) and cylinders (radius 1, y in [-1/2, 1/2]) under an affine transform.
+/// Ellipsoids (unit sphere), cylinders (radius 1, y in [-1/2, 1/2]) and cones (the same, radius 1 + taper * y) under an affine
+/// transform.
 struct alignas(64) AffineRecord {
     float translation[3];
     float object_from_world[9]; ///< row-major: p_object = object_from_world * (p - translation)
-    float padding[4];
+    float taper; ///< cones: -2 to 2
+    float padding[3];
 };
 
 /// Cold: read when shading only.
@@ -91,32 +106,35 @@ inline constexpr std::uint32_t feature_triangles = 1u << 0;
 inline constexpr std::uint32_t feature_spheres = 1u << 1;
 inline constexpr std::uint32_t feature_ellipsoids = 1u << 2;
 inline constexpr std::uint32_t feature_cylinders = 1u << 3;
-inline constexpr std::uint32_t feature_planes = 1u << 4;
-inline constexpr std::uint32_t feature_lights = 1u << 5;     ///< any light but ambient
-inline constexpr std::uint32_t feature_specular = 1u << 6;   ///< a material with specular not 0
-inline constexpr std::uint32_t feature_reflective = 1u << 7; ///< a material with reflective not 0
-inline constexpr std::uint32_t feature_transmissive = 1u << 8;
-inline constexpr std::uint32_t feature_refraction = 1u << 9; ///< a transmissive material with an index that is not 0
-inline constexpr std::uint32_t feature_soft_lights = 1u << 10;
+inline constexpr std::uint32_t feature_cones = 1u << 4;
+inline constexpr std::uint32_t feature_open_cones = 1u << 5; ///< or open cylinders
+inline constexpr std::uint32_t feature_planes = 1u << 6;
+inline constexpr std::uint32_t feature_lights = 1u << 7;     ///< any light but ambient
+inline constexpr std::uint32_t feature_specular = 1u << 8;   ///< a material with specular not 0
+inline constexpr std::uint32_t feature_reflective = 1u << 9; ///< a material with reflective not 0
+inline constexpr std::uint32_t feature_transmissive = 1u << 10;
+inline constexpr std::uint32_t feature_refraction = 1u << 11; ///< a transmissive material with an index that is not 0
+inline constexpr std::uint32_t feature_soft_lights = 1u << 12;
 
 struct SceneView {
-    const unsigned char* arena;    ///< nodes and triangle blocks; the root node, if any, is at offset 0
-    const std::uint64_t* leaves;   ///< every leaf as a child word, in arena order
+    const unsigned char* arena;  ///< nodes and triangle blocks; the root node, if any, is at offset 0
+    const std::uint64_t* leaves; ///< every leaf as a child word, in arena order
     const TriangleRecord* triangles;
     const SphereRecord* spheres;
-    const AffineRecord* affines;                ///< ellipsoids, then cylinders
-    const AffineShadingRecord* affine_shading;  ///< as `affines`
+    const AffineRecord* affines;               ///< ellipsoids, cylinders, cones, open cones
+    const AffineShadingRecord* affine_shading; ///< as `affines`
     const PlaneRecord* planes;
-    const std::uint32_t* scene_id;  ///< per slot: objects in file order, triangles in mesh order before any was dropped
-    const std::uint32_t* object;    ///< per slot: index of the object in the file
-    const std::uint32_t* material;  ///< per slot
+    const std::uint32_t* shared_slots; ///< of the triangles in leaves of kind leaf_of_shared
+    const std::uint32_t* scene_id;     ///< per slot: objects in file order, triangles in mesh order before any was dropped
+    const std::uint32_t* object;       ///< per slot: index of the object in the file
+    const std::uint32_t* material;     ///< per slot
     const MaterialRecord* materials;
     const LightRecord* lights;
     std::uint32_t first_slot[primitive_kind_count + 1]; ///< by PrimitiveKind; the last is the number of slots
-    std::uint32_t leaf_count; ///< 0: no bounded primitive, no node
+    std::uint32_t leaf_count;                           ///< 0: no bounded primitive, no node
     std::uint32_t light_count;
     std::uint32_t features; ///< feature_* bits
-    float ambient[3];    ///< sum of the ambient lights
+    float ambient[3];       ///< sum of the ambient lights
     float background[3];
     float max_coordinate; ///< largest |coordinate| of the root's boxes
 };

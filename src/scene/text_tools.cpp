@@ -8,9 +8,10 @@
 namespace lanecast {
 namespace {
 
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 /// Restricted Damerau-Levenshtein distance, upper and lower case alike.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -61,6 +62,14 @@ std::string printable(std::string_view text, std::size_t limit) {
             out += text.substr(0, length);
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
+    return out;
+}
+
+std::string printable_path(const std::filesystem::path& path) { return path.empty() ? "''" : printable(path.string(), 4096); }
+
+std::string lower_case(std::string_view text) {
+    std::string out(text);
+    std::ranges::transform(out, out.begin(), lower);
     return out;
 }
 

@@ -2,6 +2,7 @@
 // Small helpers for showing a user's own text back to them.
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,12 @@ namespace lanecast {
 
 /// Safe to print: control characters and malformed UTF-8 become '?', and text beyond `limit` bytes becomes "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 60);
+
+/// The same of a file name, whole; an empty one shows as ''.
+[[nodiscard]] std::string printable_path(const std::filesystem::path& path);
+
+/// A to Z become a to z.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 /// The word of `known` nearest to `word` by edits (a swap of neighbours counts one, and so does a word cut short), if it is
 /// near enough to be meant; else empty.

@@ -24,7 +24,6 @@ LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm256_cvtepi32_ps(a.
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm256_cvttps_epi32(a.r); }
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm256_sqrt_ps(a.r); }
 LANECAST_INLINE VectorFloat load_vector(const float* p) { return _mm256_loadu_ps(p); }
-LANECAST_INLINE VectorFloat load_eight_vector(const float* p) { return _mm256_loadu_ps(p); }
 LANECAST_INLINE VectorInt load_vector(const std::int32_t* p) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)); }
 LANECAST_INLINE void store(float* p, VectorFloat a) { _mm256_storeu_ps(p, a.r); }
 LANECAST_INLINE void store(std::int32_t* p, VectorInt a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.r); }

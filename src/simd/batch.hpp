@@ -40,7 +40,9 @@ struct BatchTraits<VectorFloat> {
     using Int = VectorInt;
     static constexpr int width = vector_width;
     LANECAST_INLINE static VectorFloat load(const float* p) { return load_vector(p); }
-    LANECAST_INLINE static VectorFloat load_eight(const float* p) { return load_eight_vector(p); }
+#if !defined(__AVX512F__)
+    LANECAST_INLINE static VectorFloat load_eight(const float* p) { return load_vector(p); }
+#endif
     LANECAST_INLINE static VectorInt load_int(const std::int32_t* p) { return load_vector(p); }
     LANECAST_INLINE static VectorMask mask_from_bits(std::uint32_t b) { return mask_from_bits_vector(b); }
 };
@@ -101,6 +103,24 @@ using NativeFloat = VectorFloat;
 using NativeFloat = float;
 #endif
 
+/// The batch for eight items of the scene, tested at once by one ray or by one packet's bounds: F, or half of it where F is
+/// wider.
+#if defined(__AVX512F__)
+template <class F>
+struct EightOf {
+    using Type = F;
+};
+template <>
+struct EightOf<VectorFloat> {
+    using Type = EightFloat;
+};
+template <FloatBatch F>
+using Eight = typename EightOf<F>::Type;
+#else
+template <FloatBatch F>
+using Eight = F;
+#endif
+
 /// float for every float batch, double for the reference.
 template <FloatBatch F>
 using Scalar = typename BatchTraits<F>::Scalar;
@@ -121,7 +141,7 @@ template <FloatBatch F>
 LANECAST_INLINE Int<F> load_int(const std::int32_t* p) {
     return BatchTraits<F>::load_int(p);
 }
-/// min(width, 8) consecutive floats of the scene; wider batches hold 0 beyond.
+/// `width` consecutive floats of the scene; F is no wider than 8.
 template <FloatBatch F>
 LANECAST_INLINE F load_eight(const float* p) {
     return BatchTraits<F>::load_eight(p);

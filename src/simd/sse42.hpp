@@ -24,7 +24,6 @@ LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm_cvtepi32_ps(a.r);
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm_cvttps_epi32(a.r); }
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm_sqrt_ps(a.r); }
 LANECAST_INLINE VectorFloat load_vector(const float* p) { return _mm_loadu_ps(p); }
-LANECAST_INLINE VectorFloat load_eight_vector(const float* p) { return _mm_loadu_ps(p); }
 LANECAST_INLINE VectorInt load_vector(const std::int32_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
 LANECAST_INLINE void store(float* p, VectorFloat a) { _mm_storeu_ps(p, a.r); }
 LANECAST_INLINE void store(std::int32_t* p, VectorInt a) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.r); }

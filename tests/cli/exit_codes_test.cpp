@@ -1,11 +1,17 @@
 // Each exit code, from the real program.
 #include "cli/run_program.hpp"
+#include "render/dispatch.hpp"
 #include "render/output_support.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <thread>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace lanecast::test;
@@ -97,6 +103,11 @@ TEST_CASE("2: usage, in one line that names the option, and a line on help") {
         {"diff", "a.exr"},
         {"diff", "a.exr", "b.exr", "--max-off-share", "2"},
         {"diff", "a.exr", "b.exr", "-o", "c.jpg"},
+        {"render", small, "-o", "a.jpg"},
+        {"render", small, "-o", "none/a.TIFF"},
+        {"render", small, "-o", ""},
+        {"render", small, "--isa", "avx2", "--precision", "reference"},
+        {"pick", small, "1", "1", "--isa", "sse4.2", "--precision", "reference"},
     };
     const TemporaryDirectory directory;
     for (const auto& arguments : wrong) {
@@ -114,6 +125,8 @@ TEST_CASE("2: usage, in one line that names the option, and a line on help") {
     CHECK(contains(run({"render", small, "--shadow"}).err, "did you mean '--shadows'?"));
     CHECK(contains(run({"render", small, "--no-shadow"}).err, "did you mean '--no-shadows'?"));
     CHECK(contains(run({"rendr", small}).err, "did you mean 'render'?"));
+    CHECK(run({"render", small, "-o", "a.jpg"}).err ==
+          "lanecast: error: --output: a.jpg: pictures are written as .exr and .png, not as .jpg\n");
     CHECK(contains(run({"render", small, "--size", "0x0"}).err, "--size: must be WIDTHxHEIGHT, each from 1 to 65536, got '0x0'"));
 }
 
@@ -145,10 +158,53 @@ TEST_CASE("3: the scene; the message has file, line, column, place, the source l
     const Outcome missing = run({"check", "missing.json"}, {.directory = directory.path});
     CHECK(missing.code == 3);
     CHECK(contains(missing.err, "missing.json: error: "));
+    CHECK(run({"render", ""}).err == "'': error: cannot read the scene: No such file or directory\n");
     // Warnings are errors under --strict; this one is of the flattened scene.
     CHECK(run({"check", small}).code == 0);
     CHECK(run({"check", small, "--strict"}).code == 3);
     CHECK(names_in(directory.path) == std::vector<std::string>{"bad.json", "far.json"});
+}
+
+TEST_CASE("a scene may come from a pipe, in pieces and late; nobody waits for ever for one without a writer, nor for a mesh") {
+    const TemporaryDirectory directory;
+    const RunOptions there{.directory = directory.path, .seconds = 30};
+    const auto pipe = directory.path / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const std::string text = content_of(small_scene());
+    {
+        const std::jthread writer([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            std::ofstream out(pipe);
+            for (const std::string& part : {text.substr(0, 100), text.substr(100)}) {
+                out << part << std::flush;
+                std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            }
+        });
+        const Outcome outcome = run({"check", "pipe"}, there);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out == "pipe: ok, 5 objects, 4 lights, 1 warning\n");
+    }
+    {
+        const std::jthread writer([&] { const std::ofstream out(pipe); });
+        CHECK(contains(run({"check", "pipe"}, there).err, "pipe:1:1: error: "));
+    }
+    Outcome outcome = run({"check", "pipe"}, there);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.err == "pipe: error: cannot read the scene: No program writes to this pipe\n");
+    std::filesystem::create_symlink("pipe", directory.path / "pipe.ply");
+    std::filesystem::create_symlink("pipe", directory.path / "pipe.mtl");
+    put(directory.path / "m.json",
+        R"({"camera": {}, "lights": [], "objects": [{"type": "mesh", "file": "pipe.ply", "material": {}}]})");
+    outcome = run({"check", "m.json"}, there);
+    CHECK(outcome.code == 4);
+    CHECK(contains(outcome.err, "cannot read pipe.ply: Not a regular file"));
+    put(directory.path / "o.json",
+        R"({"camera": {}, "lights": [], "objects": [{"type": "mesh", "file": "m.obj", "material": {}}]})");
+    put(directory.path / "m.obj", "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    outcome = run({"check", "o.json"}, there);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, "cannot read the materials `pipe.mtl`: Not a regular file"));
+    CHECK(run({"diff", "pipe", "pipe"}, there).code == 4);
 }
 
 TEST_CASE("4: a mesh or a picture that cannot be read") {
@@ -177,7 +233,12 @@ TEST_CASE("5: outputs that cannot be written are found before the frame, which w
     fails("/proc/a", "/proc/a.exr: cannot write");
     std::filesystem::create_directory(directory.path / "d.png");
     fails("d", "d.png: cannot write"); // the EXR could be written, the PNG not
-    CHECK(names_in(directory.path) == std::vector<std::string>{"d.png"});
+    fails(".", ".: is a directory; ./ puts the pictures into it");
+    std::filesystem::remove(directory.path / "d.png");
+    std::filesystem::create_directory(directory.path / "d");
+    fails("d", "d: is a directory; d/ puts the pictures into it");
+    fails("no\nsuch\033[2J/a", "no?such?[2J/a.exr: cannot write: the directory no?such?[2J does not exist\n");
+    CHECK(names_in(directory.path) == std::vector<std::string>{"d"});
     if (::geteuid() == 0) return; // root may write anywhere
     std::filesystem::permissions(directory.path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
     fails("a", "a.exr: cannot write: Permission denied");
@@ -222,16 +283,47 @@ TEST_CASE("6: memory") {
 #endif
 
 TEST_CASE("7: an instruction set that cannot be had") {
-    const Outcome outcome = run({"render", small, "--isa", "avx2", "--precision", "reference"});
-    CHECK(outcome.code == 7);
-    CHECK(contains(outcome.err, "error: "));
-    CHECK(contains(outcome.err, "avx2"));
+    bool found = false;
+    for (const lanecast::IsaInfo& isa : lanecast::known_isas()) {
+        if (isa.compiled && isa.supported) continue;
+        found = true;
+        const Outcome outcome = run({"render", small, "--isa", isa.name});
+        CHECK(outcome.code == 7);
+        CHECK(contains(outcome.err, "lanecast: error: this "));
+        CHECK(contains(outcome.err, "lacks instruction set '" + isa.name + "'; it "));
+    }
+    if (!found) std::puts("skipped: this build and this CPU have every instruction set; qemu_nehalem tests exit code 7, too");
+}
+
+TEST_CASE("values that overflow are told of, with --quiet too, and are an error before anything is written with --strict") {
+    const TemporaryDirectory directory;
+    const RunOptions there{.directory = directory.path};
+    put(directory.path / "bright.json",
+        R"({"camera": {"background": [7e4, 0, 0], "resolution": [32, 32]}, "lights": [{"type": "ambient", "color": [1e30, 1, 1]}],
+            "objects": [{"type": "sphere", "radius": 1, "position": [0, 0, -4], "material": {"ambient": [1e30, 1, 1]}}]})");
+    const std::string overflow = " values of the picture overflowed; infinity became the largest number, NaN became 0\n";
+    const std::string clamped = " values of the picture had to be clamped to 65504, the largest half; --float keeps them\n";
+    Outcome outcome = run({"render", "bright.json", "-o", "a"}, there);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.starts_with("bright.json: warning: "));
+    CHECK(contains(outcome.err, overflow));
+    CHECK(contains(outcome.err, clamped));
+    outcome = run({"render", "bright.json", "-o", "a", "--quiet"}, there);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.err, overflow));
+    CHECK(!contains(outcome.err, "clamped"));
+    for (const char* name : {"a.exr", "a.png"}) put(directory.path / name, "old");
+    outcome = run({"render", "bright.json", "-o", "a", "--strict"}, there);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, "NaN became 0 (a warning, but --strict was given)\n"));
+    for (const char* name : {"a.exr", "a.png"}) CHECK(content_of(directory.path / name) == "old");
+    CHECK(run({"render", "bright.json", "-o", "a", "--strict", "--float", "--no-ambient"}, there).code == 0);
 }
 
 TEST_CASE("130 and 143: an interrupted frame leaves the old files and nothing else") {
     const TemporaryDirectory directory;
     put(directory.path / "a.png", "old png");
-    const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "64"};
+    const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "16"};
     const bool terminal = have_terminals();
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = run(hours, {.directory = directory.path,

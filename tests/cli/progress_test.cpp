@@ -15,7 +15,7 @@ Outcome until(const std::string& text, RunOptions options) {
     const TemporaryDirectory directory;
     options.directory = directory.path;
     options.signal_at = text;
-    return run({"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "64"}, options);
+    return run({"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "16"}, options);
 }
 
 } // namespace

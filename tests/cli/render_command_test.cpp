@@ -51,14 +51,16 @@ TEST_CASE("names: the scene's by default, both files for a bare name, one for a 
     REQUIRE(run({"render", small}, there).code == 0);
     CHECK(sorted_names(directory.path) == std::vector<std::string>{"small.exr", "small.png"});
     REQUIRE(run({"render", small, "-o", "one.exr"}, there).code == 0);
-    REQUIRE(run({"render", small, "--output", "two.png"}, there).code == 0);
+    REQUIRE(run({"render", small, "--output", "two.PNG"}, there).code == 0);
     std::filesystem::create_directory(directory.path / "sub");
     REQUIRE(run({"render", small, "-o", "sub/v1.5"}, there).code == 0);
     REQUIRE(run({"render", small, "-o", "sub/"}, there).code == 0);
-    CHECK(sorted_names(directory.path) == std::vector<std::string>{"one.exr", "small.exr", "small.png", "sub", "two.png"});
-    CHECK(sorted_names(directory.path / "sub") == std::vector<std::string>{"small.exr", "small.png", "v1.5.exr", "v1.5.png"});
+    REQUIRE(run({"render", small, "-o", "sub/.png"}, there).code == 0);
+    CHECK(sorted_names(directory.path) == std::vector<std::string>{"one.exr", "small.exr", "small.png", "sub", "two.PNG"});
+    CHECK(sorted_names(directory.path / "sub") ==
+          std::vector<std::string>{".png", "small.exr", "small.png", "v1.5.exr", "v1.5.png"});
     CHECK(picture_kind(directory.path / "one.exr") == PictureKind::exr);
-    CHECK(picture_kind(directory.path / "two.png") == PictureKind::png);
+    CHECK(picture_kind(directory.path / "two.PNG") == PictureKind::png);
     const Film film = read_picture(directory.path / "small.exr");
     CHECK(film.image_width == 64);
     CHECK(film.image_height == 48);
@@ -136,6 +138,8 @@ TEST_CASE("every switch changes the picture, the same from scene and command lin
         {R"("schlick": true)", {"--schlick"}, {"--no-schlick"}},
         {R"("planes": false)", {"--no-planes"}, {"--planes"}},
         {R"("bvh": false)", {"--no-bvh"}, {"--bvh"}, {}, false},
+        {R"("bvh": "off")", {"--bvh", "off"}, {"--bvh", "default"}, {}, false},
+        {R"("bvh": "quality")", {"--bvh", "quality"}, {"--bvh"}, {}, false},
         {R"("depth": 1)", {"--depth", "1"}, {"--depth", "8"}},
         {R"("cutoff": 0.5)", {"--cutoff", "0.5"}, {"--cutoff", "0"}},
         {R"("soft_shadows": 4)", {"--soft-shadows", "4"}, {"--soft-shadows", "0"}},
@@ -200,10 +204,10 @@ TEST_CASE("--stats: on the standard output, with every stage and kind of ray, an
     const Outcome outcome =
         run({"render", small, "--stats", "--aa", "cross", "--isa", "scalar"}, {.directory = directory.path, .one_cpu = true});
     CHECK(outcome.code == 0);
-    for (const char* text :
-         {"kernels        scalar, balanced, 1 rays per vector\n", "threads        1\n", "  load ", "  bake ", "  build ",
-          "  frame ", "  write ", "trace primary", "trace offset", "trace shadow", "trace reflection", "trace refraction",
-          "shade, rest", "  primary              3072 ", "  all ", "tree ", "peak "}) {
+    for (const char* text : {"kernels        scalar, balanced, 1 ray per vector\n", "threads        1\n", "  load ", "  bake ",
+                             "  build ", "  frame ", "  write ", "trace primary", "trace offset", "trace shadow",
+                             "trace reflection", "trace refraction", "shade, rest", "  primary              3072 ", "  all ",
+                             "tree           1 node, 4 leaves, 1 level, SAH cost ", "peak "}) {
         CAPTURE(text);
         CHECK(contains(outcome.out, text));
     }

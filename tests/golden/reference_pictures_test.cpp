@@ -48,7 +48,7 @@ struct Pictures {
         FrameOptions options;
         options.width = options.height = pixels;
         options.threads = threads;
-        return plain(render_frame(*find_kernels("auto", Precision::balanced), scene, description.camera, settings, options).film);
+        return plain(render_frame(find_kernels("auto", Precision::balanced), scene, description.camera, settings, options).film);
     }
 };
 

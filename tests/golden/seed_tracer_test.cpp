@@ -95,7 +95,7 @@ Film render_lanecast(const SceneDescription& scene, int size) {
     FrameOptions options;
     options.width = options.height = size;
     options.threads = threads;
-    return render_frame(*find_kernels("auto", Precision::balanced), arrays, scene.camera, scene.render, options).film;
+    return render_frame(find_kernels("auto", Precision::balanced), arrays, scene.camera, scene.render, options).film;
 }
 
 Object placed(Shape shape, const glm::dvec3& at, const Transformation& transformation) {

@@ -174,7 +174,7 @@ CylinderScore score_cylinder(double radius, double height, int rays, std::uint64
             target[0] /= radius, target[2] /= radius, target[1] /= height;
             ray.set(lane, o, target);
         }
-        const CylinderCrossing<F> crossing = cross_cylinder(ray.origin(), ray.direction(), Mask<F>(true));
+        const CappedCrossing<F> crossing = cross_cylinder(ray.origin(), ray.direction(), Mask<F>(true));
         alignas(64) S t0[W];
         lanecast::store(t0, crossing.ends.t0);
         for (int lane = 0; lane < W; ++lane) {

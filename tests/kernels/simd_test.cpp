@@ -328,17 +328,56 @@ TEST_CASE("for_each_unique visits every value once, with all of its lanes, lowes
     }
 }
 
+TEST_CASE("the batch for eight items computes as one item does") {
+    using E = Eight<F>;
+    constexpr int n_lanes = width<E>;
+    Lottery random(12);
+    for (int n = 0; n < cases(40000); ++n) {
+        float a[8], b[8];
+        for (int i = 0; i < 8; ++i) {
+            a[i] = static_cast<float>(random.uniform(-9, 9));
+            b[i] = random.chance(0.2) ? a[i] : static_cast<float>(random.uniform(-9, 9));
+        }
+        const E x = load_eight<E>(a), y = load_eight<E>(b);
+        S sum[8], difference[8], product[8], quotient[8], least[8], most[8];
+        lanecast::store(sum, x + y);
+        lanecast::store(difference, x - y);
+        lanecast::store(product, x * y);
+        lanecast::store(quotient, x / y);
+        lanecast::store(least, lanecast::min(x, y));
+        lanecast::store(most, lanecast::max(x, y));
+        const std::uint32_t below = bits(x <= y), above = bits(x >= y);
+        const std::uint32_t first = random.below(n_lanes + 1);
+        CHECK(bits(first_lanes<E>(first)) == (1u << first) - 1u);
+        CHECK(bits((x <= y) & (x >= y)) == (below & above));
+        CHECK(bits((x <= y) | (x >= y)) == (below | above));
+        CHECK(none(x <= y) == (below == 0));
+        for (int i = 0; i < n_lanes; ++i) {
+            const S p = static_cast<S>(a[i]), q = static_cast<S>(b[i]);
+            CHECK(sum[i] == p + q);
+            CHECK(difference[i] == p - q);
+            CHECK(product[i] == p * q);
+            CHECK(quotient[i] == p / q);
+            CHECK(least[i] == (p < q ? p : q));
+            CHECK(most[i] == (p > q ? p : q));
+            CHECK(((below >> i) & 1u) == (p <= q ? 1u : 0u));
+            CHECK(((above >> i) & 1u) == (p >= q ? 1u : 0u));
+        }
+    }
+}
+
 TEST_CASE("load_eight, gather, reduce_min and reduce_max") {
     Lottery random(11);
     for (int n = 0; n < cases(40000); ++n) {
-        float eight[16]; // exactly min(W, 8) may be read: beyond them is another page in the worst case
+        float eight[8];
         for (float& x : eight) x = static_cast<float>(random.uniform(-9, 9));
-        const Lanes loaded = lanes_of(load_eight<F>(eight));
+        S loaded[8];
+        lanecast::store(loaded, load_eight<Eight<F>>(eight));
+        for (int i = 0; i < width<Eight<F>>; ++i) CHECK(loaded[i] == static_cast<S>(eight[i]));
         Lanes x{};
         IntLanes table{}, index{};
         S lowest = std::numeric_limits<S>::infinity(), highest = -lowest;
         for (int i = 0; i < W; ++i) {
-            CHECK(loaded[i] == static_cast<S>(i < 8 ? eight[i] : 0.0f));
             x.v[i] = static_cast<S>(static_cast<float>(random.chance(0.1) ? random.below(3) - 1 : random.uniform(-9, 9)));
             if (random.chance(0.05))
                 x.v[i] = random.chance(0.5) ? std::numeric_limits<S>::infinity() : -std::numeric_limits<S>::infinity();

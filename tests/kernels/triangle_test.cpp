@@ -83,7 +83,7 @@ bool hits_any(const ClosedMesh& mesh, const S (*org)[W], const S (*dir)[W], int 
         const TriangleEdges<F> e = triangle_edges(ray, vertex(axes, mesh.vertices[static_cast<std::size_t>(v[0])]),
                                                   vertex(axes, mesh.vertices[static_cast<std::size_t>(v[1])]),
                                                   vertex(axes, mesh.vertices[static_cast<std::size_t>(v[2])]));
-        hit |= bits(e.inside & (triangle_t(ray, e) > F(0)));
+        hit |= bits(e.inside & (triangle_t(ray.shear.z, e) > F(0)));
     }
     return (hit >> lane & 1u) != 0;
 }
@@ -125,7 +125,7 @@ std::uint64_t leaks(const ClosedMesh& mesh, const std::array<double, 3>& eye, do
                 const TriangleEdges<F> e = triangle_edges(ray, vertex(axes, mesh.vertices[static_cast<std::size_t>(v[0])]),
                                                           vertex(axes, mesh.vertices[static_cast<std::size_t>(v[1])]),
                                                           vertex(axes, mesh.vertices[static_cast<std::size_t>(v[2])]));
-                hit |= bits(e.inside & (triangle_t(ray, e) > F(0))) & lanes;
+                hit |= bits(e.inside & (triangle_t(ray.shear.z, e) > F(0))) & lanes;
             };
             for (const int t : mesh.of_vertex[va]) test(t);
             if (!at_vertices)
@@ -205,7 +205,7 @@ TEST_CASE("t is accurate and inside the depth range of the triangle") {
                 const ShearedRay<F> ray = shear(axes, org, dir);
                 const TriangleEdges<F> e = triangle_edges(ray, vertex(axes, v[0]), vertex(axes, v[1]), vertex(axes, v[2]));
                 alignas(64) S t[W];
-                lanecast::store(t, triangle_t(ray, e));
+                lanecast::store(t, triangle_t(ray.shear.z, e));
                 const std::uint32_t inside = bits(e.inside);
                 for (int lane = 0; lane < W; ++lane) {
                     if ((inside >> lane & 1u) == 0 || dominant(dir, lane) != k) continue;
@@ -281,7 +281,7 @@ TEST_CASE("degenerate and edge-on triangles are not hit, or have a t in range; N
         const Axes axes = axes_of(kz);
         const ShearedRay<F> ray = shear(axes, org, dir);
         const TriangleEdges<F> e = triangle_edges(ray, vertex(axes, v[0]), vertex(axes, v[1]), vertex(axes, v[2]));
-        const F t = triangle_t(ray, e);
+        const F t = triangle_t(ray.shear.z, e);
         const std::uint32_t found = bits(e.inside & (t > F(0)) & (t <= F(no_limit<S>)));
         hits += static_cast<std::uint64_t>(std::popcount(found));
         bad += static_cast<std::uint64_t>(std::popcount(found & ~bits((t >= F(S(1.9))) & (t <= F(S(4.1))))));

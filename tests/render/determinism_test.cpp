@@ -122,14 +122,39 @@ TEST_CASE("same bytes in any crop, for every anti-aliasing mode") {
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot, 4); });
 }
 
-TEST_CASE("same bytes without the tree") {
+TEST_CASE("same bytes without the tree, and with the one of spatial splits") {
     const auto check = [](const KernelTable& kernels, const SceneDescription& scene, Shot shot) {
         const Frame tree = shoot(kernels, scene, shot);
-        shot.settings.bvh = false;
-        CHECK(film_difference(tree.film, shoot(kernels, scene, shot).film) == "");
+        for (const BvhMode mode : {BvhMode::off, BvhMode::quality}) {
+            shot.settings.bvh = mode;
+            CHECK(film_difference(tree.film, shoot(kernels, scene, shot).film) == "");
+        }
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
+}
+
+TEST_CASE("same bytes where mirrors and glass are split: no part of a triangle hits its own ray") {
+    Random random(9);
+    for (int n = 0; n < 4; ++n) {
+        SceneDescription scene = random_lit_scene(random, 6);
+        Object needle = make_object(needles(random, 150));
+        needle.transformations = {Scale{{2, 2, 2}}};
+        needle.material = scene.objects[0].material;
+        needle.material.reflective = glm::dvec3(0.5);
+        needle.material.transmissive = glm::dvec3(n % 2 == 0 ? 0.5 : 0.0);
+        scene.objects.push_back(needle);
+        for (const bool transmissive_shadows : {false, true}) {
+            Shot shot{{64, 48, {0, 0, 0, 0}, 1, 32}, {}};
+            shot.settings.transmissive_shadows = transmissive_shadows;
+            shot.settings.depth = 4;
+            const Frame plain = shoot(*balanced_kernels().back(), scene, shot);
+            shot.settings.bvh = BvhMode::quality;
+            CHECK(film_difference(plain.film, shoot(*balanced_kernels().back(), scene, shot).film) == "");
+            shot.settings.bvh = BvhMode::off;
+            CHECK(film_difference(plain.film, shoot(*balanced_kernels().back(), scene, shot).film) == "");
+        }
+    }
 }
 
 TEST_CASE("same bytes in any unit of length: every length times 2^k") {

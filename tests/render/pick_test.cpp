@@ -96,20 +96,20 @@ TEST_CASE("the root is the pixel, and every ray is the sum of its parts, bit for
     for (const IsaInfo& isa : known_isas()) {
         if (!isa.compiled || !isa.supported) continue;
         CAPTURE(isa.name);
-        CHECK(check_frame(setup, *find_kernels(isa.name, Precision::balanced)) == 0);
+        CHECK(check_frame(setup, find_kernels(isa.name, Precision::balanced)) == 0);
     }
     setup.settings.schlick = true;
     setup.settings.transmissive_shadows = true;
     setup.settings.soft_shadows = 3;
-    CHECK(check_frame(setup, *find_kernels("auto", Precision::balanced)) == 0);
-    CHECK(check_frame(setup, *find_kernels("scalar", Precision::reference)) < 1e-6); // recorded in float
+    CHECK(check_frame(setup, find_kernels("auto", Precision::balanced)) == 0);
+    CHECK(check_frame(setup, find_kernels("scalar", Precision::reference)) < 1e-6); // recorded in float
 }
 
 TEST_CASE("an unlit scene: local light is the whole colour") {
     Setup setup;
     setup.settings.reflections = setup.settings.transmission = false;
     setup.settings.depth = 0;
-    CHECK(check_frame(setup, *find_kernels("auto", Precision::balanced)) == 0);
+    CHECK(check_frame(setup, find_kernels("auto", Precision::balanced)) == 0);
 }
 
 TEST_CASE("a tree that outgrows the first guess is traced again, whole") {
@@ -124,7 +124,7 @@ TEST_CASE("a tree that outgrows the first guess is traced again, whole") {
     RenderSettings settings;
     settings.depth = 11;
     const SceneArrays arrays = flatten(loaded.description, settings, 1);
-    const KernelTable& kernels = *find_kernels("auto", Precision::balanced);
+    const KernelTable& kernels = find_kernels("auto", Precision::balanced);
     const FrameOptions options{.width = 8, .height = 8};
     const PixelTrace trace = trace_pixel(kernels, arrays, loaded.description.camera, settings, options, 3, 3);
     CHECK(trace.rays.size() > 256);
@@ -140,7 +140,7 @@ TEST_CASE("a tree that outgrows the first guess is traced again, whole") {
 TEST_CASE("a frame that is told to stop stops") {
     const Setup setup;
     const SceneArrays arrays = flatten(setup.loaded.description, setup.settings, 1);
-    const KernelTable& kernels = *find_kernels("auto", Precision::balanced);
+    const KernelTable& kernels = find_kernels("auto", Precision::balanced);
     FrameOptions options = setup.options;
     std::atomic<bool> stop{false};
     options.stop = &stop;

@@ -25,11 +25,11 @@ constexpr int cases(int n) { return n / fewer > 0 ? n / fewer : 1; }
 inline std::vector<const KernelTable*> balanced_kernels() {
     std::vector<const KernelTable*> tables;
     for (const IsaInfo& isa : known_isas())
-        if (isa.compiled && isa.supported) tables.push_back(find_kernels(isa.name, Precision::balanced));
+        if (isa.compiled && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::balanced));
     return tables;
 }
-inline const KernelTable& scalar_kernels() { return *find_kernels("scalar", Precision::balanced); }
-inline const KernelTable& reference_kernels() { return *find_kernels("auto", Precision::reference); }
+inline const KernelTable& scalar_kernels() { return find_kernels("scalar", Precision::balanced); }
+inline const KernelTable& reference_kernels() { return find_kernels("auto", Precision::reference); }
 
 struct Rays {
     std::vector<float> org[3], dir[3], tmin, tmax;

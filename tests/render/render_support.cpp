@@ -62,7 +62,9 @@ Shape random_shape(Random& random, int kind, const glm::dvec3& place) {
     case 1:
         return Sphere{random.uniform(0.2, 0.8), random.point(0.3)};
     case 2:
-        return Cylinder{random.uniform(0.1, 0.6), random.uniform(0.1, 1.5)};
+        if (random.chance(0.5)) return Cylinder{random.uniform(0.1, 0.6), random.uniform(0.1, 1.5), random.chance(0.6)};
+        return Cone{random.uniform(0.1, 0.6), random.chance(0.5) ? 0 : random.uniform(0, 0.6), random.uniform(0.1, 1.5),
+                    random.chance(0.5)};
     case 3:
         return tetrahedron();
     default:
@@ -92,6 +94,13 @@ SceneDescription everything() {
     Material film = matte({0.3, 0.1, 0.4});
     film.transmissive = {0.6, 0.2, 0.7}; // no index: straight through
     scene.objects.push_back({Cylinder{0.3, 0.8}, {Translation{{0.3, 1.4, 0.5}}}, film, ""});
+    scene.objects.push_back({Cone{0.4, 0, 0.9}, {Rotation{{1, 0, 1}, 20}, Translation{{1.2, 1.2, -0.4}}}, glass(1.4), "cone"});
+    scene.objects.push_back({Cone{0.5, 0.2, 0.7, false},
+                             {Scale{{1, 1.2, 0.7}}, Rotation{{0, 0, 1}, 70}, Translation{{-0.3, 0.7, 0.9}}},
+                             mirror_like({0.5, 0.4, 0.2}),
+                             "funnel"});
+    scene.objects.push_back(
+        {Cylinder{0.25, 0.8, false}, {Rotation{{1, 0, 0}, 70}, Translation{{-0.6, -0.4, 1.6}}}, film, "pipe"});
     scene.objects.push_back({tetrahedron(),
                              {Scale{{-0.5, 0.6, 0.5}}, Rotation{{0, 1, 0}, 25}, Translation{{0.2, -0.3, 1.4}}},
                              glass(1.3),

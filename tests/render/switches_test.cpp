@@ -370,7 +370,7 @@ TEST_CASE("cross is the mean of five pictures, moved up, down, left and right; w
         int several = 0, single = 0;
         for (std::size_t i = 0; i < hits.slot.size(); ++i) {
             const bool hit = hits.slot[i] >= 0,
-                       on_plane = hit && static_cast<std::uint32_t>(hits.slot[i]) >= arrays.first_slot[4];
+                       on_plane = hit && static_cast<std::uint32_t>(hits.slot[i]) >= arrays.first_slot[6];
             const bool sampled = hit && (planes || !on_plane);
             ++(sampled ? several : single);
             for (std::size_t c = 0; c < 3; ++c)

@@ -13,7 +13,7 @@ namespace {
 
 /// A point of the scene that rays are aimed at: vertices, centres, rims; or anywhere.
 glm::dvec3 target(Random& random, const SceneArrays& scene) {
-    const std::uint32_t slots = scene.first_slot[4];
+    const std::uint32_t slots = scene.first_slot[6];
     if (slots == 0 || random.chance(0.2)) return random.point(1);
     const auto slot = static_cast<std::uint32_t>(random.below(static_cast<int>(slots)));
     if (slot < scene.first_slot[1]) {
@@ -33,6 +33,8 @@ glm::dvec3 target(Random& random, const SceneArrays& scene) {
     const AffineShadingRecord& f = scene.affine_shading[slot - scene.first_slot[2]];
     glm::dvec3 p = random.direction(), q(a.translation[0], a.translation[1], a.translation[2]);
     if (slot >= scene.first_slot[3]) p.y = random.chance(0.5) ? std::copysign(0.5, p.y) : 0.5 * p.y;
+    const double radius = 1 + double{a.taper} * p.y;
+    p.x *= radius, p.z *= radius;
     for (int row = 0; row < 3; ++row)
         for (int c = 0; c < 3; ++c) q[row] += double{f.world_from_object[3 * row + c]} * p[c];
     return q;
@@ -166,7 +168,9 @@ TEST_CASE("the tree finds what testing every primitive finds: stretched and shea
     for (int n = 0; n < cases(200); ++n) {
         SceneDescription scene;
         for (int i = 0; i < 12; ++i) {
-            Object object{random.chance(0.5) ? Shape(Sphere{}) : Shape(Cylinder{}), {}, {}, ""};
+            const Shape shapes[] = {
+                Sphere{}, Cylinder{}, Cylinder{1, 1, false}, Cone{}, Cone{1, 0.5, 1, false}, Cone{1, 0, 1, false}};
+            Object object{shapes[random.below(6)], {}, {}, ""};
             // condition numbers up to about 1e3 by stretching, and the shear that two stretches make
             const auto stretch = [&] { return std::exp(random.uniform(-3.4, 3.4)); };
             object.transformations = {Scale{{stretch(), stretch(), stretch()}}, Rotation{random.direction(), 50}};
@@ -177,6 +181,36 @@ TEST_CASE("the tree finds what testing every primitive finds: stretched and shea
         }
         check_scene(random, scene, 4, tally, 5);
     }
+    CHECK(tally.hits > tally.rays / 20);
+}
+
+TEST_CASE("spatial splits change no hit: random scenes and needles, rays aimed at edges and vertices") {
+    Random random(8);
+    Tally tally;
+    int split = 0;
+    for (int n = 0; n < cases(300); ++n) {
+        SceneDescription scene = random_scene(random, 1 + random.below(60));
+        if (n % 3 != 0) scene.objects.push_back({needles(random, 20 + random.below(300)), {}, {}, ""});
+        const SceneArrays plain = flatten(scene, RenderSettings{}, 1);
+        RenderSettings quality;
+        quality.bvh = BvhMode::quality;
+        const SceneArrays arrays = flatten(scene, quality, 1);
+        split += arrays.shared_slots.empty() ? 0 : 1;
+        for (int batch = 0; batch < 3; ++batch) {
+            const Rays rays = random_rays(random, plain);
+            REQUIRE(check_all(arrays, rays, tally) == "");
+            const Hits a = ask(scalar_kernels(), view(plain), rays, Ask::closest, true);
+            const Hits b = ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                REQUIRE(bits_of(a.t[i]) == bits_of(b.t[i]));
+                REQUIRE((a.slot[i] < 0) == (b.slot[i] < 0));
+                if (a.slot[i] >= 0)
+                    REQUIRE(plain.scene_id[static_cast<std::size_t>(a.slot[i])] ==
+                            arrays.scene_id[static_cast<std::size_t>(b.slot[i])]);
+            }
+        }
+    }
+    CHECK(split > cases(300) / 5);
     CHECK(tally.hits > tally.rays / 20);
 }
 
@@ -262,7 +296,7 @@ TEST_CASE("a ray along a plane misses it, from either side and on it") {
                     const Hits hits = ask(*kernels, view(arrays), rays, Ask::closest);
                     for (std::size_t i = 0; i < rays.size(); ++i) {
                         CHECK((hits.slot[i] < 0 || hits.t[i] < 1e30f));
-                        if (hits.slot[i] >= 0) CHECK(static_cast<std::uint32_t>(hits.slot[i]) < arrays.first_slot[4]);
+                        if (hits.slot[i] >= 0) CHECK(static_cast<std::uint32_t>(hits.slot[i]) < arrays.first_slot[6]);
                     }
                 }
             }

@@ -77,7 +77,23 @@ void WhittedOracle::hits_of(const Body& body, std::size_t index, const dvec3& o,
         for (const double y : {-half, half}) {
             const double t = (y - p.y) / v.y;
             const dvec3 q = p + v * t;
-            if (std::isfinite(t) && q.x * q.x + q.z * q.z <= r * r) add(t, normal_matrix * dvec3(0, y, 0));
+            if (cylinder->capped && std::isfinite(t) && q.x * q.x + q.z * q.z <= r * r) add(t, normal_matrix * dvec3(0, y, 0));
+        }
+    } else if (const auto* cone = std::get_if<Cone>(&object.shape)) {
+        const double half = cone->height / 2, slope = (cone->apex_radius - cone->base_radius) / cone->height;
+        const double r = 0.5 * (cone->base_radius + cone->apex_radius) + slope * p.y, dr = slope * v.y;
+        const double a = v.x * v.x + v.z * v.z - dr * dr, b = p.x * v.x + p.z * v.z - r * dr, c = p.x * p.x + p.z * p.z - r * r;
+        if (a != 0 && b * b >= a * c)
+            for (const double sign : {-1.0, 1.0}) {
+                const double t = (-b + sign * std::sqrt(b * b - a * c)) / a;
+                const dvec3 q = p + v * t;
+                if (std::abs(q.y) <= half) add(t, normal_matrix * dvec3(q.x, -slope * (r + dr * t), q.z));
+            }
+        for (const double y : {-half, half}) {
+            const double t = (y - p.y) / v.y, radius = y < 0 ? cone->base_radius : cone->apex_radius;
+            const dvec3 q = p + v * t;
+            if (cone->capped && std::isfinite(t) && q.x * q.x + q.z * q.z <= radius * radius)
+                add(t, normal_matrix * dvec3(0, y, 0));
         }
     } else if (const auto* plane = std::get_if<Plane>(&object.shape)) {
         const double cosine = glm::dot(d, plane->normal);

@@ -20,14 +20,17 @@ TEST_CASE("rounding outwards") {
     CHECK(rounded_down(-1e-60) < 0);
 }
 
-TEST_CASE("boxes contain points of transformed spheres and cylinders, and are tight") {
+TEST_CASE("boxes contain points of transformed spheres, cylinders and cones, and are tight") {
     Random random(1);
     for (int i = 0; i < 3000; ++i) {
         SceneDescription scene;
-        const bool cylinder = random.chance(0.5);
+        const int kind = random.below(3);
         const double radius = std::exp(random.uniform(-3, 3)), height = std::exp(random.uniform(-3, 3));
         const glm::dvec3 position = random.point(3);
-        const Shape shape = cylinder ? Shape(Cylinder{radius, height}) : Shape(Sphere{radius, position});
+        const double apex = kind == 1 ? radius : random.chance(0.5) ? 0 : random.uniform(0, 2 * radius);
+        const Shape shape = kind == 0   ? Shape(Sphere{radius, position})
+                            : kind == 1 ? Shape(Cylinder{radius, height})
+                                        : Shape(Cone{radius, apex, height, random.chance(0.5)});
         const Object object = make_object(shape, random_transformations(random, random.chance(0.3)));
         scene.objects.push_back(object);
         const SceneArrays arrays = flatten(scene, scene.render, 1);
@@ -36,9 +39,9 @@ TEST_CASE("boxes contain points of transformed spheres and cylinders, and are ti
         double reach[6] = {-1e30, -1e30, -1e30, -1e30, -1e30, -1e30};
         for (int sample = 0; sample < 400; ++sample) {
             glm::dvec3 p = random.direction() * radius + position;
-            if (cylinder) {
-                const double angle = random.uniform(0, 6.3);
-                p = {radius * std::cos(angle), (random.chance(0.5) ? 0.5 : -0.5) * height, radius * std::sin(angle)};
+            if (kind > 0) {
+                const double angle = random.uniform(0, 6.3), y = random.chance(0.5) ? 0.5 : -0.5, r = y < 0 ? radius : apex;
+                p = {r * std::cos(angle), y * height, r * std::sin(angle)};
             }
             const glm::dvec3 q = normalised(arrays.normalisation, apply(t, p));
             for (int axis = 0; axis < 3; ++axis) {

@@ -97,19 +97,25 @@ TEST_CASE("each primitive of random scenes is the one its scene id names") {
                         REQUIRE(classify(t.linear) == TransformClass::affine);
                     }
                 } else if (std::holds_alternative<Plane>(object.shape)) {
-                    REQUIRE(kind == 4);
+                    REQUIRE(kind == 6);
                 } else {
-                    REQUIRE(kind == 3);
+                    const auto* cylinder = std::get_if<Cylinder>(&object.shape);
+                    const auto* cone = std::get_if<Cone>(&object.shape);
+                    REQUIRE(kind == ((cylinder ? cylinder->capped : cone->capped) ? (cylinder ? 3 : 4) : 5));
                 }
-                if (kind == 2 || kind == 3) { // points on the true body are on the unit one, and back
+                if (kind >= 2 && kind <= 5) { // points on the true body are on the unit one, and back
                     const AffineRecord& record = arrays.affines[slot - arrays.first_slot[2]];
                     const AffineShadingRecord& shading = arrays.affine_shading[slot - arrays.first_slot[2]];
                     const auto* cylinder = std::get_if<Cylinder>(&object.shape);
+                    const auto* cone = std::get_if<Cone>(&object.shape);
+                    const double radius = cone ? 0.5 * (cone->base_radius + cone->apex_radius) : cylinder ? cylinder->radius : 0;
+                    const double height = cone ? cone->height : cylinder ? cylinder->height : 0;
+                    const double taper = cone ? (cone->apex_radius - cone->base_radius) / radius : 0;
+                    REQUIRE(std::abs(double{record.taper} - taper) <= 1e-7 * std::abs(taper));
                     for (int sample = 0; sample < 4; ++sample) {
                         const glm::dvec3 q = random.direction();
                         const auto* s = std::get_if<Sphere>(&object.shape);
-                        const glm::dvec3 body = s ? s->position + s->radius * q
-                                                  : glm::dvec3(cylinder->radius, cylinder->height, cylinder->radius) * q;
+                        const glm::dvec3 body = s ? s->position + s->radius * q : glm::dvec3(radius, height, radius) * q;
                         const glm::dvec3 world = normalised(n, apply(t, body)), from_centre = world - vec(record.translation);
                         const double tolerance =
                             1e-6 * (1 + glm::length(world) * glm::length(times(record.object_from_world, from_centre)) /
@@ -162,8 +168,8 @@ TEST_CASE("planes: unit normals, normalised distances, dropped with their materi
     CHECK(double{arrays.planes[1].distance} == doctest::Approx(std::sqrt(3.0) / 2));
     CHECK(arrays.scene_id == std::vector<std::uint32_t>{1, 0, 2});
     CHECK((arrays.features & (feature_planes | feature_reflective)) == (feature_planes | feature_reflective));
-    CHECK(arrays.first_slot[4] == 1);
-    CHECK(arrays.first_slot[5] == 3);
+    CHECK(arrays.first_slot[6] == 1);
+    CHECK(arrays.first_slot[7] == 3);
 
     RenderSettings off;
     off.planes = false;
@@ -172,7 +178,7 @@ TEST_CASE("planes: unit normals, normalised distances, dropped with their materi
     CHECK(without.scene_id == std::vector<std::uint32_t>{1});
     CHECK((without.features & (feature_planes | feature_reflective)) == 0);
     CHECK(without.materials.size() == 1);
-    CHECK(without.first_slot[5] == 1);
+    CHECK(without.first_slot[7] == 1);
 }
 
 TEST_CASE("a scene of planes has no tree, and an empty one nothing") {
@@ -183,7 +189,7 @@ TEST_CASE("a scene of planes has no tree, and an empty one nothing") {
     CHECK(view(arrays).leaf_count == 0);
     CHECK(arrays.max_coordinate == 0);
     CHECK(arrays.bounds_min.x > arrays.bounds_max.x);
-    CHECK(view(arrays).first_slot[5] == 1);
+    CHECK(view(arrays).first_slot[7] == 1);
 }
 
 TEST_CASE("degenerate triangles are dropped and counted, slivers are kept, ids have gaps") {
@@ -193,7 +199,7 @@ TEST_CASE("degenerate triangles are dropped and counted, slivers are kept, ids h
         make_object(triangle_mesh({{a, b, c}, {a, b, a}, {a, b, b * 0.5}, {a, b, {0.5, 1e-30, 0}}, {c, b, a}})));
     const SceneArrays arrays = flatten(scene, scene.render, 1);
     CHECK(arrays.degenerate_triangles == 2);
-    CHECK(arrays.warnings.size() == 1);
+    CHECK(arrays.warnings == std::vector<std::string>{"/objects/0: 2 degenerate triangles were dropped"});
     std::vector<std::uint32_t> ids = arrays.scene_id;
     std::sort(ids.begin(), ids.end());
     CHECK(ids == std::vector<std::uint32_t>{0, 3, 4});
@@ -206,6 +212,13 @@ TEST_CASE("degenerate triangles are dropped and counted, slivers are kept, ids h
     const SceneArrays empty = flatten(nothing, nothing.render, 1);
     CHECK(empty.degenerate_triangles == 2);
     CHECK(check_tree(empty) == "");
+
+    scene.objects.insert(scene.objects.begin(), make_object(Sphere{}));
+    scene.objects.insert(scene.objects.begin(), make_object(triangle_mesh({{a, b, c}})));
+    scene.objects[2].name = "sheet";
+    scene.objects.push_back(make_object(triangle_mesh({{a, b, a}})));
+    const std::string both = "/objects/2 (\"sheet\"): 2 degenerate triangles were dropped (3 in all, in 2 meshes)";
+    CHECK(flatten(scene, scene.render, 2).warnings == std::vector<std::string>{both});
 }
 
 TEST_CASE("vertices that no triangle uses do not count") {
@@ -233,8 +246,40 @@ TEST_CASE("errors and warnings name the object") {
     CHECK(flatten(scene, scene.render, 1).warnings.size() == 1);
     scene.objects[1] = make_object(Cylinder{1, 1e-6});
     CHECK(flatten(scene, scene.render, 1).warnings.empty()); // along the axes nothing is lost
-    scene.objects[1] = make_object(Sphere{1e-8, {1, 0, 0}});
-    CHECK(flatten(scene, scene.render, 1).warnings.size() == 1);
+}
+
+TEST_CASE("one warning for objects too small for the float grid: the smallest, and what reaches farthest from it") {
+    const auto warnings = [](double size, int k) {
+        SceneDescription scene;
+        scene.objects.push_back(make_object(Plane{{0, -1e9, 0}, {0, 1, 0}}));
+        scene.objects.push_back(make_object(Sphere{1.5, {3, 0, 0}}));
+        scene.objects.push_back(make_object(triangle_mesh({{glm::dvec3{-size, 0, -size}, {-size, 0, size}, {size, 0, size}}})));
+        scene.objects.push_back(make_object(Sphere{0.5}, {Scale{{1, 2, 0.5}}})); // 2 across at its longest
+        scene.objects[2].name = "floor";
+        scene = scaled_scene(scene, k);
+        return flatten(scene, scene.render, 2).warnings;
+    };
+    const double limit = 0x1p17; // of the half size: beyond it the step of the grid doubles from 2^-7 to 2^-6
+    for (const int k : {0, -40, 40}) CHECK(warnings(limit * 0.999, k).empty());
+    for (const int k : {0, -40, 40}) {
+        const std::vector<std::string> coarse = warnings(limit * 1.001, k);
+        REQUIRE(coarse.size() == 1);
+        CHECK(coarse[0].starts_with("/objects/3: is 128 steps of single precision across: "));
+    }
+    CHECK(warnings(1e6, 0) ==
+          std::vector<std::string>{"/objects/3: is 32 steps of single precision across: 2 units in a scene of "
+                                   "2e+06, as far as /objects/2 (\"floor\") reaches; expect rough edges and "
+                                   "shadows"});
+    // Where nothing is large, what lies far away does it; lights and the camera do not.
+    SceneDescription scene;
+    for (const double x : {0.0, 1.0, 1e6}) scene.objects.push_back(make_object(Sphere{x == 1 ? 0.5 : 1, {x, 0, 0}}));
+    scene.camera.position = {1e8, 0, 0};
+    const std::vector<std::string> far = flatten(scene, scene.render, 1).warnings;
+    REQUIRE(far.size() == 1);
+    CHECK(far[0].starts_with("/objects/1: is 32 steps"));
+    CHECK(far[0].find("as far as /objects/2 reaches") != std::string::npos);
+    scene.objects.pop_back();
+    CHECK(flatten(scene, scene.render, 1).warnings.empty());
 }
 
 TEST_CASE("extreme ranges stay finite") {

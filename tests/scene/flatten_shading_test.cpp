@@ -89,6 +89,12 @@ TEST_CASE("features follow from what is used") {
     scene.objects.push_back(make_object(Plane{}));
     scene.objects.push_back(make_object(triangle_mesh({{glm::dvec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})));
     CHECK(flatten(scene, {}, 1).features == (feature_ellipsoids | feature_cylinders | feature_planes | feature_triangles));
+    scene.objects = {make_object(Cone{})};
+    CHECK(flatten(scene, {}, 1).features == feature_cones);
+    scene.objects = {make_object(Cone{1, 0.5, 1, false})};
+    CHECK(flatten(scene, {}, 1).features == feature_open_cones);
+    scene.objects = {make_object(Cylinder{1, 1, false})};
+    CHECK(flatten(scene, {}, 1).features == feature_open_cones);
 }
 
 TEST_CASE("identical materials share a record; meshes may bring one per triangle") {

@@ -61,7 +61,7 @@ Mesh triangle_mesh(std::vector<std::array<glm::dvec3, 3>> triangles) {
 
 SceneDescription random_scene(Random& random, int size) {
     SceneDescription scene;
-    const int layout = random.below(5), kinds = 1 + random.below(31);
+    const int layout = random.below(5), kinds = 1 + random.below(63);
     const double spacing = random.chance(0.5) ? 1 : std::exp(random.uniform(-5, 5));
     const glm::dvec3 line = random.direction(), where = random.point(1);
     const auto place = [&](int i) -> glm::dvec3 {
@@ -79,7 +79,7 @@ SceneDescription random_scene(Random& random, int size) {
         }
     };
     for (int i = 0; i < size;) {
-        const int kind = random.below(5);
+        const int kind = random.below(6);
         if ((kinds >> kind & 1) == 0) continue;
         Object object;
         object.material.diffuse = glm::dvec3(0.25 * random.below(4));
@@ -91,7 +91,7 @@ SceneDescription random_scene(Random& random, int size) {
             object.transformations = {Scale{{1, 2, 3}}, Rotation{random.direction(), 30}, Translation{place(i)}};
         }
         if (kind == 2) {
-            object.shape = Cylinder{radius, random.uniform(0.1, 2)};
+            object.shape = Cylinder{radius, random.uniform(0.1, 2), random.chance(0.7)};
             object.transformations.emplace_back(Translation{place(i)});
         }
         if (kind == 3) {
@@ -99,6 +99,11 @@ SceneDescription random_scene(Random& random, int size) {
             object.shape = Plane{place(i), random.direction() * random.uniform(0.1, 10)};
         }
         if (kind == 4) {
+            const double apex = random.chance(0.4) ? 0 : random.chance(0.2) ? radius : random.uniform(0, 1);
+            object.shape = Cone{radius, apex, random.uniform(0.1, 2), random.chance(0.5)};
+            object.transformations.emplace_back(Translation{place(i)});
+        }
+        if (kind == 5) {
             std::vector<std::array<glm::dvec3, 3>> triangles;
             const int count = std::min(size - i, 1 + random.below(20));
             for (int t = 0; t < count; ++t) {
@@ -120,6 +125,7 @@ SceneDescription scaled_scene(SceneDescription scene, int k) {
     for (Object& object : scene.objects) {
         if (auto* sphere = std::get_if<Sphere>(&object.shape)) sphere->radius *= s, sphere->position *= s;
         if (auto* cylinder = std::get_if<Cylinder>(&object.shape)) cylinder->radius *= s, cylinder->height *= s;
+        if (auto* cone = std::get_if<Cone>(&object.shape)) cone->base_radius *= s, cone->apex_radius *= s, cone->height *= s;
         if (auto* plane = std::get_if<Plane>(&object.shape)) plane->position *= s;
         if (auto* mesh = std::get_if<Mesh>(&object.shape))
             for (auto& p : mesh->positions) p *= s;
@@ -138,15 +144,27 @@ SceneDescription scaled_scene(SceneDescription scene, int k) {
     return scene;
 }
 
+Mesh needles(Random& random, int count) {
+    std::vector<std::array<glm::dvec3, 3>> triangles;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 p = random.point(1);
+        const double width = std::exp(random.uniform(-9, 0));
+        triangles.push_back({p, p + random.direction() * random.uniform(0.2, 2), p + random.direction() * width});
+    }
+    return triangle_mesh(triangles);
+}
+
 namespace {
 
 struct Walk {
     const SceneArrays& arrays;
     std::string fault{};
     std::vector<int> seen{};
+    std::vector<std::vector<std::array<float, 6>>> parts{}; ///< of triangles that may be split: boxes, by slot
     std::vector<std::uint64_t> leaves{};
     std::uint32_t next_slot[primitive_kind_count] = {};
     std::size_t next_unit = 0;
+    std::uint32_t next_shared = 0;
     std::uint32_t nodes = 0;
     int depth = 0;
 
@@ -174,23 +192,83 @@ struct Walk {
         Random random(slot);
         for (int i = 0; i < 40; ++i) {
             glm::dvec3 p = random.direction();
-            if (kind == PrimitiveKind::cylinder) {
-                const double angle = random.uniform(0, 7);
-                p = {std::cos(angle), random.chance(0.5) ? 0.5 : -0.5, std::sin(angle)};
+            if (kind != PrimitiveKind::ellipsoid) {
+                const double angle = random.uniform(0, 7), y = random.chance(0.5) ? 0.5 : -0.5;
+                const double radius = kind == PrimitiveKind::cylinder ? 1 : 1 + double{r.taper} * y;
+                p = {radius * std::cos(angle), y, radius * std::sin(angle)};
             }
-            inside(box, world_from_object * p + t, kind == PrimitiveKind::cylinder ? "a cylinder" : "an ellipsoid");
+            inside(box, world_from_object * p + t, kind == PrimitiveKind::ellipsoid ? "an ellipsoid" : "a cylinder or cone");
         }
+    }
+
+    glm::dvec3 vertex(std::uint32_t record, std::uint32_t v) const {
+        const std::uint32_t lane = record & 7u, n = (record >> 3 & 7u) + 1;
+        const auto* rows = reinterpret_cast<const float*>(arrays.arena.get() + std::size_t{record >> 6} * 64) + lane;
+        return {rows[(3 * v) * n], rows[(3 * v + 1) * n], rows[(3 * v + 2) * n]};
     }
 
     void triangle(const Bounds& box, std::uint64_t word, std::uint32_t lane, std::uint32_t n, std::uint32_t slot) {
         const auto block = static_cast<std::uint32_t>(word >> child_block_shift & 0x1ffffffu);
-        const auto* rows = reinterpret_cast<const float*>(arrays.arena.get() + std::size_t{block} * 64);
-        for (std::uint32_t v = 0; v < 3; ++v)
-            inside(box, {rows[(3 * v) * n + lane], rows[(3 * v + 1) * n + lane], rows[(3 * v + 2) * n + lane]}, "a vertex");
-        if (arrays.triangles[slot].block != (block << 6 | (n - 1) << 3 | lane))
-            fail("a triangle's record does not point to its lane");
+        const std::uint32_t record = block << 6 | (n - 1) << 3 | lane;
+        if (arrays.shared_slots.empty()) {
+            for (std::uint32_t v = 0; v < 3; ++v) inside(box, vertex(record, v), "a vertex");
+        } else {
+            parts.resize(arrays.first_slot[1]);
+            std::array<float, 6> part{};
+            for (std::size_t i = 0; i < 3; ++i)
+                part[i] = static_cast<float>(box.lo[i]), part[3 + i] = static_cast<float>(box.hi[i]);
+            parts[slot].push_back(part);
+            for (std::uint32_t v = 0; v < 3; ++v)
+                if (vertex(record, v) != vertex(arrays.triangles[slot].block, v)) fail("a part of another triangle");
+        }
+        if (seen[slot] == 1 && arrays.triangles[slot].block != record)
+            fail("a triangle's record does not point to its first lane");
         if (std::size_t{block} * 64 + (8 * n + 8) * 4 > arrays.arena_bytes)
             fail("8 floats of the last row lie outside the arena");
+    }
+
+    /// Every point of a split triangle lies in one of its boxes: tried at the corners and at random, on the edges and between.
+    void check_parts() {
+        Random random(7);
+        for (std::uint32_t slot = 0; slot < parts.size(); ++slot)
+            for (int i = 0; i < 40; ++i) {
+                double b[3] = {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
+                if (i < 20) b[i % 3] = 0;
+                if (i < 3) b[0] = i == 0, b[1] = i == 1, b[2] = i == 2;
+                glm::dvec3 p(0);
+                for (std::uint32_t v = 0; v < 3; ++v)
+                    p += vertex(arrays.triangles[slot].block, v) * (b[v] / (b[0] + b[1] + b[2]));
+                const auto holds = [&](const std::array<float, 6>& part) {
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        const double x = p[static_cast<int>(k)];
+                        if (x < double{part[k]} - 1e-12 || x > double{part[3 + k]} + 1e-12) return false;
+                    }
+                    return true;
+                };
+                if (std::none_of(parts[slot].begin(), parts[slot].end(), holds))
+                    fail("a point of a triangle in none of its boxes");
+            }
+    }
+
+    /// Triangles some of which were seen before, at the next place of the table.
+    void shared_leaf(const Bounds& box, std::uint64_t word, std::uint32_t n, std::uint32_t first) {
+        if ((word >> child_block_shift & 0x1ffffffu) != next_unit) fail("a block is not where the order puts it");
+        next_unit += (36 * n + 63) / 64;
+        if (first != next_shared || first + n > arrays.shared_slots.size()) return fail("shared slots are not in leaf order");
+        next_shared += n;
+        std::uint32_t again = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t slot = arrays.shared_slots[first + i];
+            if (slot >= arrays.first_slot[1]) return fail("a slot of another kind");
+            for (std::uint32_t j = 0; j < i; ++j)
+                if (arrays.shared_slots[first + j] == slot) fail("a triangle twice in one leaf");
+            if (seen[slot]++ > 0)
+                ++again;
+            else if (slot != next_slot[0]++)
+                fail("slots are not in leaf order");
+            triangle(box, word, i, n, slot);
+        }
+        if (again == 0) fail("a leaf of shared triangles without one");
     }
 
     void leaf(const Bounds& box, std::uint64_t word) {
@@ -198,7 +276,9 @@ struct Walk {
         const auto kind = static_cast<int>(word >> child_kind_shift & 7u);
         const std::uint32_t n = static_cast<std::uint32_t>(word >> child_count_shift & 7u) + 1;
         const auto slot = static_cast<std::uint32_t>(word);
-        if (kind >= static_cast<int>(PrimitiveKind::plane)) return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(PrimitiveKind::plane) || kind > static_cast<int>(leaf_of_shared))
+            return fail("a leaf of planes or of no kind");
+        if (kind == static_cast<int>(leaf_of_shared)) return shared_leaf(box, word, n, slot);
         if (slot != next_slot[kind]) fail("slots are not in leaf order");
         next_slot[kind] = slot + n;
         if (kind == 0) {
@@ -260,7 +340,7 @@ struct Walk {
 
 std::string check_tree(const SceneArrays& arrays) {
     Walk walk{arrays};
-    const std::uint32_t planes = arrays.first_slot[4], slots = arrays.first_slot[5];
+    const std::uint32_t planes = arrays.first_slot[6], slots = arrays.first_slot[7];
     walk.seen.assign(slots, 0);
     std::copy_n(arrays.first_slot, primitive_kind_count, walk.next_slot);
     if (arrays.scene_id.size() != slots || arrays.object.size() != slots || arrays.material.size() != slots)
@@ -268,9 +348,12 @@ std::string check_tree(const SceneArrays& arrays) {
     if (planes == 0) return arrays.leaves.empty() && arrays.arena_bytes == 0 ? "" : "a tree of nothing";
     if (arrays.leaves.empty()) return "no tree";
     walk.node({}, 0, 1);
+    walk.check_parts();
     if (!walk.fault.empty()) return walk.fault;
     for (std::uint32_t slot = 0; slot < planes; ++slot)
-        if (walk.seen[slot] != 1) return "slot " + std::to_string(slot) + " is in " + std::to_string(walk.seen[slot]) + " leaves";
+        if (walk.seen[slot] != 1 && (walk.seen[slot] == 0 || slot >= arrays.first_slot[1] || arrays.shared_slots.empty()))
+            return "slot " + std::to_string(slot) + " is in " + std::to_string(walk.seen[slot]) + " leaves";
+    if (walk.next_shared != arrays.shared_slots.size()) return "shared slots that no leaf uses";
     if (walk.next_unit * 64 != arrays.arena_bytes) return "the arena has a remainder";
     if (walk.depth > max_bvh_depth || walk.depth != arrays.quality.depth) return "depth";
     if (walk.nodes != arrays.quality.nodes || walk.leaves.size() != arrays.quality.leaves) return "counts of the quality report";
@@ -295,6 +378,7 @@ std::string difference(const SceneArrays& a, const SceneArrays& b) {
     if (!same(a.affines, b.affines)) return "affines";
     if (!same(a.affine_shading, b.affine_shading)) return "affine_shading";
     if (!same(a.planes, b.planes)) return "planes";
+    if (!same(a.shared_slots, b.shared_slots)) return "shared_slots";
     if (!same(a.scene_id, b.scene_id) || !same(a.object, b.object) || !same(a.material, b.material)) return "attributes";
     if (!same(a.materials, b.materials)) return "materials";
     if (!same(a.lights, b.lights)) return "lights";

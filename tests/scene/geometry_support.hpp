@@ -39,8 +39,12 @@ struct Random {
 /// Corners are not shared.
 [[nodiscard]] Mesh triangle_mesh(std::vector<std::array<glm::dvec3, 3>> triangles);
 
-/// Empty, or what is wrong with the tree and the arrays: each primitive in exactly one leaf, inside all boxes above it, blocks
-/// and records consistent, slots in leaf order, unused children inert, depth as promised.
+/// Long thin triangles that cross each other: spatial splits pay.
+[[nodiscard]] Mesh needles(Random& random, int count);
+
+/// Empty, or what is wrong with the tree and the arrays: each primitive in exactly one leaf, inside all boxes above it (a
+/// triangle that was split: in several, each of its points inside the boxes above one of them), blocks and records consistent,
+/// slots in leaf order, unused children inert, depth as promised.
 [[nodiscard]] std::string check_tree(const SceneArrays& arrays);
 
 /// Empty, or the first array that differs in its bits.

@@ -112,6 +112,23 @@ TEST_CASE("a material library that every object misses is reported a few times")
     CHECK(warnings[50] == "w.json: warning: 20 more warnings");
 }
 
+TEST_CASE("warnings of a mesh past the tenth are counted") {
+    const std::filesystem::path directory =
+        std::filesystem::temp_directory_path() / ("lanecast_scene_" + std::to_string(::getpid()));
+    std::filesystem::create_directory(directory);
+    for (const int count : {11, 15}) {
+        std::ofstream file(directory / "a.obj");
+        for (int i = 0; i < count; ++i) file << "vertex 1 2 3\n";
+        file << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" << std::flush;
+        const std::string object = R"({"type": "mesh", "file": "a.obj"})";
+        const std::vector<std::string> warnings = parse_scene(scene(object + ", " + object), "w.json", directory).warnings;
+        REQUIRE(warnings.size() == 22);
+        for (const std::size_t i : {10u, 21u})
+            CHECK(warnings[i].ends_with(count == 11 ? "a.obj: warning: 1 more warning" : "a.obj: warning: 5 more warnings"));
+    }
+    std::filesystem::remove_all(directory);
+}
+
 TEST_CASE("nesting: 64 levels are read, 65 are an error, whatever follows") {
     const auto nested = [](int depth) {
         return scene("", "",

@@ -96,6 +96,12 @@ TEST_CASE("OBJ: unknown statements are warnings") {
     (void)read_obj("g group\no object\ns off\nl 1 2\nvertex 1 2 3\n", "m.obj", {}, {}, warnings);
     REQUIRE(warnings.messages.size() == 1);
     CHECK(warnings.messages[0].starts_with("m.obj:5:1: warning: unknown statement `vertex`\n"));
+    std::string many;
+    for (int i = 0; i < 17; ++i) many += "vertex 1 2 3\n";
+    warnings = {};
+    (void)read_obj(many, "m.obj", {}, {}, warnings);
+    CHECK(warnings.messages.size() == 10);
+    CHECK(warnings.dropped == 7);
 }
 
 TEST_CASE("PLY: ASCII with other elements and properties in any order") {

@@ -1,4 +1,5 @@
 #include "scene/error.hpp"
+#include "scene/flatten.hpp"
 #include "scene/load_scene.hpp"
 
 #include "scene/shared_files.hpp"
@@ -29,6 +30,7 @@ TEST_CASE("the public scenes load") {
         CHECK(scene.description.objects.size() == objects);
         CHECK(scene.description.lights.size() == lights);
         CHECK(scene.warnings.size() == warnings);
+        CHECK(flatten(scene.description, scene.description.render, 2).warnings.empty());
         CHECK_THROWS_AS((void)load_scene(*scenes / (warnings > 0 ? file : "four_component_colour.json"), {.strict = true}),
                         Error);
     }

@@ -75,14 +75,17 @@ public:
         Object out;
         out.material = material();
         if (coin()) out.name = coin() ? "ball" : "tab\t\"quote\" \\ caf\u00e9 \U0001F600";
-        switch (whole(0, 3)) {
+        switch (whole(0, 4)) {
         case 0:
             out.shape = Sphere{positive(), point()};
             break;
         case 1:
-            out.shape = Cylinder{positive(), positive()};
+            out.shape = Cylinder{positive(), positive(), coin()};
             break;
         case 2:
+            out.shape = Cone{positive(), not_negative(), positive(), coin()};
+            break;
+        case 3:
             out.shape = Plane{point(), direction()};
             return out;
         default:
@@ -123,8 +126,9 @@ public:
         RenderSettings out;
         for (bool* const value :
              {&out.ambient, &out.diffuse, &out.specular, &out.shadows, &out.transmissive_shadows, &out.reflections,
-              &out.transmission, &out.refraction, &out.schlick, &out.planes, &out.bvh, &out.anti_aliasing.planes})
+              &out.transmission, &out.refraction, &out.schlick, &out.planes, &out.anti_aliasing.planes})
             *value = coin();
+        out.bvh = static_cast<BvhMode>(whole(0, 2));
         out.anti_aliasing.mode = static_cast<AntiAliasMode>(whole(0, 3));
         out.anti_aliasing.samples = whole(1, 64);
         out.anti_aliasing.offset = coin() ? 16 : real(1e-9, 16);

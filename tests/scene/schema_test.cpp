@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -41,6 +42,7 @@ Json minimal(std::string_view block) {
     Json out = {{"type", block}};
     if (block == "sphere") out.update({{"radius", 1}, {"material", Json::object()}});
     if (block == "cylinder") out.update({{"radius", 1}, {"height", 1}, {"material", Json::object()}});
+    if (block == "cone") out.update({{"base_radius", 1}, {"height", 1}, {"material", Json::object()}});
     if (block == "plane") out.update({{"position", up}, {"normal", up}, {"material", Json::object()}});
     if (block == "mesh") out.update({{"triangles", {{up, one, {2, 1, 4}}}}, {"material", Json::object()}});
     if (block == "rotation") out.update({{"axis", up}, {"degrees", 30}});
@@ -101,9 +103,9 @@ void check_accepted(const BlockSpec& block, const KeySpec& key, const Json& valu
     CHECK(outcome(block.name, changed).error == "");
 }
 
-/// Ends of the range in the schema's words.
+/// Ends of the range in the schema's words; those it does not have are infinite.
 struct Ends {
-    double low = -largest_magnitude, high = largest_magnitude;
+    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
     bool low_open = false, high_open = false;
 };
 Ends ends_of(const Json& numbers) {
@@ -184,6 +186,7 @@ std::string expected_type(const KeySpec& key) {
     case ValueKind::list:
         return "array";
     case ValueKind::choice:
+    case ValueKind::switch_or_choice:
     case ValueKind::block:
         break;
     }
@@ -262,6 +265,14 @@ TEST_CASE("the loader takes what the schema allows and refuses the rest") {
                 check_refused(*block, key, 0);
                 break;
             }
+            case ValueKind::switch_or_choice: {
+                Json values = {false, true};
+                for (const std::string_view word : key.choices) values.push_back(word);
+                CHECK(rule["enum"] == values);
+                for (const Json& value : values) check_accepted(*block, key, value);
+                for (const Json& value : {Json(0), Json("true"), Json(nullptr)}) check_refused(*block, key, value);
+                break;
+            }
             case ValueKind::block:
             case ValueKind::list:
                 check_refused(*block, key, 1);
@@ -269,6 +280,10 @@ TEST_CASE("the loader takes what the schema allows and refuses the rest") {
             }
         }
     }
+    // The one list without a block of its own.
+    const Ends coordinate = ends_of(schema()["definitions"]["mesh"]["properties"]["triangles"]["items"]["items"]["items"]);
+    CHECK(coordinate.low == -largest_magnitude);
+    CHECK(coordinate.high == largest_magnitude);
 }
 
 TEST_CASE("defaults are those of the schema, and every key is read") {
@@ -312,6 +327,7 @@ TEST_CASE("defaults are those of the schema, and every key is read") {
                 other[name] = {64, 48};
                 break;
             case ValueKind::choice:
+            case ValueKind::switch_or_choice:
                 other[name] = std::string(key.choices.back());
                 break;
             case ValueKind::block:

@@ -35,7 +35,14 @@ inline Json to_json(const Object& object) {
     if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
         out.update({{"type", "sphere"}, {"radius", sphere->radius}, {"position", to_json(sphere->position)}});
     } else if (const auto* cylinder = std::get_if<Cylinder>(&object.shape)) {
-        out.update({{"type", "cylinder"}, {"radius", cylinder->radius}, {"height", cylinder->height}});
+        out.update(
+            {{"type", "cylinder"}, {"radius", cylinder->radius}, {"height", cylinder->height}, {"capped", cylinder->capped}});
+    } else if (const auto* cone = std::get_if<Cone>(&object.shape)) {
+        out.update({{"type", "cone"},
+                    {"base_radius", cone->base_radius},
+                    {"apex_radius", cone->apex_radius},
+                    {"height", cone->height},
+                    {"capped", cone->capped}});
     } else if (const auto* plane = std::get_if<Plane>(&object.shape)) {
         out.update({{"type", "plane"}, {"position", to_json(plane->position)}, {"normal", to_json(plane->normal)}});
     } else {
@@ -86,6 +93,7 @@ inline Json to_json(const Camera& camera) {
 
 inline Json to_json(const RenderSettings& render) {
     static const char* const modes[] = {"off", "cross", "grid", "edge"};
+    static const char* const bvh_modes[] = {"off", "default", "quality"};
     static const char* const precisions[] = {"balanced", "reference"};
     const AntiAliasing& aa = render.anti_aliasing;
     return {{"ambient", render.ambient},
@@ -98,7 +106,7 @@ inline Json to_json(const RenderSettings& render) {
             {"refraction", render.refraction},
             {"schlick", render.schlick},
             {"planes", render.planes},
-            {"bvh", render.bvh},
+            {"bvh", bvh_modes[static_cast<int>(render.bvh)]},
             {"anti_aliasing",
              {{"mode", modes[static_cast<int>(aa.mode)]}, {"samples", aa.samples}, {"offset", aa.offset}, {"planes", aa.planes}}},
             {"soft_shadows", render.soft_shadows},

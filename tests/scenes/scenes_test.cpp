@@ -40,7 +40,7 @@ Film render_small(const SceneDescription& scene, RenderSettings settings) {
     CHECK(arrays.warnings.empty());
     CHECK(arrays.degenerate_triangles == 0);
     const FrameOptions options{.width = 64, .height = 36, .threads = 2};
-    return render_frame(*find_kernels("auto", settings.precision), arrays, scene.camera, settings, options).film;
+    return render_frame(find_kernels("auto", settings.precision), arrays, scene.camera, settings, options).film;
 }
 
 struct PixelCounts {
@@ -116,6 +116,11 @@ TEST_CASE("each feature's scene shows its feature: without it the picture is ano
         {"anti_aliasing_cross", [](SceneDescription& s) { s.render.anti_aliasing.mode = AntiAliasMode::off; }},
         {"anti_aliasing_edge", [](SceneDescription& s) { s.render.anti_aliasing.mode = AntiAliasMode::off; }},
         {"anti_aliasing_grid", [](SceneDescription& s) { s.render.anti_aliasing.mode = AntiAliasMode::off; }},
+        {"cone",
+         [](SceneDescription& s) {
+             for (Object& o : s.objects)
+                 if (auto* cone = std::get_if<Cone>(&o.shape)) cone->apex_radius = cone->base_radius;
+         }},
         {"depth", [](SceneDescription& s) { s.render.depth = 8; }},
         {"look_at",
          [](SceneDescription& s) {

@@ -137,11 +137,16 @@ def mesh_text(points, triangles):
 def shapes(scene_object, directory):
     """(opening text without the closing brace, material) of each part."""
     kind, material = scene_object["type"], scene_object.get("material", {})
+    opening = "" if scene_object.get("capped", True) else " open"
     if kind == "sphere":
         yield f"sphere {{ {vector(scene_object.get('position', [0, 0, 0]))}, {scene_object['radius']:.9g}\n", material
     elif kind == "cylinder":
         half = scene_object["height"] / 2
-        yield f"cylinder {{ <0,{-half:.9g},0>, <0,{half:.9g},0>, {scene_object['radius']:.9g}\n", material
+        yield f"cylinder {{ <0,{-half:.9g},0>, <0,{half:.9g},0>, {scene_object['radius']:.9g}{opening}\n", material
+    elif kind == "cone":
+        half = scene_object["height"] / 2
+        yield (f"cone {{ <0,{-half:.9g},0>, {scene_object['base_radius']:.9g}, <0,{half:.9g},0>, "
+               f"{scene_object.get('apex_radius', 0):.9g}{opening}\n"), material
     elif kind == "plane":
         normal = unit(scene_object["normal"])
         yield f"plane {{ {vector(normal)}, {dot(normal, scene_object['position']):.9g}\n", material

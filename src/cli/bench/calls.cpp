@@ -50,7 +50,7 @@ std::string measure_scene(const std::string& name, const MeshArrays& arrays, con
     const SceneDescription description = describe(std::span(&arrays, 1));
     const SceneArrays flat = flatten(description, description.render, 1);
     const SceneView flat_view = view(flat);
-    const KernelTable& kernels = *find_kernels(isa, Precision::balanced);
+    const KernelTable& kernels = find_kernels(isa, Precision::balanced);
     std::vector<float> normalised[3];
     for (int axis = 0; axis < 3; ++axis)
         for (const float o : rays.org[axis])

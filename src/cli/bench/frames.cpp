@@ -74,7 +74,7 @@ std::string measure_frames(const FramesRequest& request) {
     const auto flatten_begin = Clock::now();
     const SceneArrays arrays = flatten(scene, scene.render, request.threads);
     const double flatten_seconds = seconds_since(flatten_begin);
-    const KernelTable& kernels = *find_kernels(request.isa, scene.render.precision);
+    const KernelTable& kernels = find_kernels(request.isa, scene.render.precision);
     FrameOptions options;
     options.width = request.width;
     options.height = request.height;

@@ -2,6 +2,7 @@
 // The primitives of a leaf against a packet, and the rule by which a hit is taken: nearest t, ties to the smaller scene id, so
 // that neither the tree nor the grouping of rays can show in the picture.
 
+#include "render/kernels/cone.hpp"
 #include "render/kernels/packet.hpp"
 #include "render/kernels/plane.hpp"
 #include "render/kernels/quadric.hpp"
@@ -66,51 +67,102 @@ LANECAST_INLINE bool hit_convex(const SceneView& scene, Packet<F>& packet, std::
     return true;
 }
 
+/// An open cone or cylinder, met at either end that is on its side. It is part of a convex body's surface, so what the body's own
+/// rays cannot meet, its side's cannot either.
 template <Query query, FloatBatch F>
-LANECAST_INLINE bool hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                   std::uint32_t first_slot, std::uint32_t count) {
-    using S = Scalar<F>;
-    const Axes axes = packet.axes;
-    bool hit_any = false;
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-        const auto vertex = [&](std::uint32_t v) {
-            const float* const row = block + lane + 3 * v * count;
-            return Vec3<F>{F(S(row[static_cast<std::uint32_t>(axes.kx) * count])),
-                           F(S(row[static_cast<std::uint32_t>(axes.ky) * count])),
-                           F(S(row[static_cast<std::uint32_t>(axes.kz) * count]))};
-        };
-        const Vec3<F> a = vertex(0), b = vertex(1), c = vertex(2);
-        const std::uint32_t slot = first_slot + lane;
-        for_each_bit(vectors, [&](std::uint32_t vector) {
-            const std::uint32_t i = vector * width<F>;
-            const ShearedRay<F> ray = packet.sheared(i);
-            const TriangleEdges<F> edges = triangle_edges(ray, a, b, c);
-            if (none(edges.inside)) return;
-            const F t = triangle_t(ray, edges);
-            const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
-            const Mask<F> found = edges.inside & (t <= load<F>(packet.t + i)) &
-                                  later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
-            if (none(found)) return;
-            take<query>(scene, packet, i, t, slot, found);
-            hit_any = true;
-        });
-    }
-    return hit_any;
+LANECAST_INLINE bool hit_open(const SceneView& scene, Packet<F>& packet, std::uint32_t i, const CappedCrossing<F>& crossing,
+                              std::uint32_t slot) {
+    const Mask<F> side0 = crossing.ends.hit & !crossing.cap0, side1 = crossing.ends.hit & !crossing.cap1;
+    if (none(side0 | side1)) return false;
+    const std::uint32_t id = scene.scene_id[slot];
+    const Int<F> source = load_int<F>(packet.source + i);
+    const Int<F> this_slot(static_cast<std::int32_t>(slot));
+    const Mask<F> outward = source == source_outward(this_slot);
+    const Mask<F> inward = source == source_inward(this_slot);
+    const Mask<F> enters = side0 & later<query>(packet, i, crossing.ends.t0, id) & !inward;
+    const F t = select(enters, crossing.ends.t0, crossing.ends.t1);
+    const Mask<F> leaves = side1 & later<query>(packet, i, crossing.ends.t1, id);
+    const Mask<F> found = (enters | leaves) & (!outward) & (t <= load<F>(packet.t + i));
+    if (none(found)) return false;
+    take<query>(scene, packet, i, t, slot, found);
+    return true;
 }
 
-/// Tests the vectors in `vectors` against the leaf; true when some ray's t changed.
+/// Triangle `lane` of a block, in the axes of the rays.
+template <FloatBatch F>
+struct TriangleVertices {
+    Vec3<F> a, b, c;
+};
+template <FloatBatch F>
+LANECAST_INLINE TriangleVertices<F> vertices_of(const Axes& axes, const float* block, std::uint32_t count, std::uint32_t lane) {
+    using S = Scalar<F>;
+    const auto vertex = [&](std::uint32_t v) {
+        const float* const row = block + lane + 3 * v * count;
+        return Vec3<F>{F(S(row[static_cast<std::uint32_t>(axes.kx) * count])),
+                       F(S(row[static_cast<std::uint32_t>(axes.ky) * count])),
+                       F(S(row[static_cast<std::uint32_t>(axes.kz) * count]))};
+    };
+    return {vertex(0), vertex(1), vertex(2)};
+}
+
+/// The rays of one vector against a triangle given from their origins: whether some ray's t changed.
 template <Query query, FloatBatch F>
-bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, std::uint64_t child) {
+LANECAST_INLINE bool hit_triangle(const SceneView& scene, Packet<F>& packet, std::uint32_t vector,
+                                  const TriangleVertices<F>& from_org, const TriangleSlots& slots, std::uint32_t lane) {
+    const std::uint32_t i = vector * width<F>;
+    const Vec3<F> shear{load<F>(packet.shear[0] + i), load<F>(packet.shear[1] + i), load<F>(packet.shear[2] + i)};
+    const TriangleEdges<F> edges = triangle_edges(shear, from_org.a, from_org.b, from_org.c);
+    if (none(edges.inside)) return false;
+    const F t = triangle_t(shear.z, edges);
+    const Mask<F> nearer = edges.inside & (t <= load<F>(packet.t + i)) & (t >= load<F>(packet.tmin + i));
+    if (none(nearer)) return false; // few candidates are left: what follows is rare
+    const std::uint32_t slot = slots[lane];
+    const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
+    const Mask<F> found = nearer & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
+    if (none(found)) return false;
+    take<query>(scene, packet, i, t, slot, found);
+    return true;
+}
+
+template <FloatBatch F>
+LANECAST_INLINE TriangleVertices<F> less(const TriangleVertices<F>& vertices, const Vec3<F>& org) {
+    return {vertices.a - org, vertices.b - org, vertices.c - org};
+}
+
+template <Query query, FloatBatch F>
+LANECAST_INLINE std::uint32_t hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
+                                            const TriangleSlots& slots, std::uint32_t count) {
+    std::uint32_t changed = 0;
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+        const TriangleVertices<F> vertices = vertices_of<F>(packet.axes, block, count, lane);
+        if (packet.common_origin) { // one subtraction for all
+            const TriangleVertices<F> from_org = less(vertices, packet.origin_in_axes(0));
+            for_each_bit(vectors, [&](std::uint32_t vector) {
+                if (hit_triangle<query>(scene, packet, vector, from_org, slots, lane)) changed |= 1u << vector;
+            });
+        } else {
+            for_each_bit(vectors, [&](std::uint32_t vector) {
+                const TriangleVertices<F> from_org = less(vertices, packet.origin_in_axes(vector * width<F>));
+                if (hit_triangle<query>(scene, packet, vector, from_org, slots, lane)) changed |= 1u << vector;
+            });
+        }
+    }
+    return changed;
+}
+
+/// Tests the vectors in `vectors` against the leaf; returns those in which some ray's t changed.
+template <Query query, FloatBatch F>
+std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, std::uint64_t child) {
     using S = Scalar<F>;
     const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
     const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
     const auto first_slot = static_cast<std::uint32_t>(child);
-    if (kind == PrimitiveKind::triangle) {
+    if (is_of_triangles(child)) {
         const std::uint64_t offset = ((child >> child_block_shift) & child_block_mask) * 64u;
-        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset), first_slot,
-                                    count);
+        return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset),
+                                    triangle_slots(scene, child), count);
     }
-    bool hit_any = false;
+    std::uint32_t changed = 0;
     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
         if (kind == PrimitiveKind::sphere) {
             const SphereRecord& sphere = sphere_at(scene, slot);
@@ -119,7 +171,18 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
                 const std::uint32_t i = vector * width<F>;
                 const Crossing<F> ends =
                     cross_sphere(packet.origin(i) - centre, packet.direction(i), F(S(sphere.radius)), Mask<F>(true));
-                hit_any |= hit_convex<query>(scene, packet, i, ends, slot);
+                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
+            });
+        } else if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {
+            const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
+            for_each_bit(vectors, [&](std::uint32_t vector) {
+                const std::uint32_t i = vector * width<F>;
+                const CappedCrossing<F> crossing =
+                    cross_cone(point_to_object(affine, packet.origin(i)), direction_to_object(affine, packet.direction(i)),
+                               F(S(affine.taper)), Mask<F>(true));
+                if (kind == PrimitiveKind::cone ? hit_convex<query>(scene, packet, i, crossing.ends, slot)
+                                                : hit_open<query>(scene, packet, i, crossing, slot))
+                    changed |= 1u << vector;
             });
         } else {
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
@@ -129,11 +192,11 @@ bool hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, 
                 const Vec3<F> d = direction_to_object(affine, packet.direction(i));
                 const Crossing<F> ends = kind == PrimitiveKind::ellipsoid ? cross_sphere(o, d, F(1), Mask<F>(true))
                                                                           : cross_cylinder(o, d, Mask<F>(true)).ends;
-                hit_any |= hit_convex<query>(scene, packet, i, ends, slot);
+                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
             });
         }
     }
-    return hit_any;
+    return changed;
 }
 
 /// Planes are in no tree: every packet meets all of them.

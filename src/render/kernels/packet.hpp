@@ -33,16 +33,16 @@ struct Packet {
     int vectors;
     std::uint32_t count; ///< rays; the lanes beyond repeat the last one with t = -1
     Axes axes;
-    bool negative[3]; ///< of the directions
+    bool negative[3];   ///< of the directions
+    bool common_origin; ///< every ray starts at the same point
 
     // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
     S interval_near[3], interval_far[3];
     S rcp_min[3], rcp_max[3];
     S t_max; ///< largest t
 
-    [[nodiscard]] LANECAST_INLINE ShearedRay<F> sheared(std::uint32_t i) const {
-        return {{load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)},
-                {load<F>(shear[0] + i), load<F>(shear[1] + i), load<F>(shear[2] + i)}};
+    [[nodiscard]] LANECAST_INLINE Vec3<F> origin_in_axes(std::uint32_t i) const {
+        return {load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)};
     }
     [[nodiscard]] LANECAST_INLINE Vec3<F> origin(std::uint32_t i) const {
         return {load<F>(org[0] + i), load<F>(org[1] + i), load<F>(org[2] + i)};
@@ -105,15 +105,16 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
     const F infinity(std::numeric_limits<S>::infinity());
     // Along the direction of travel, so that both signs are one code: near planes bound from below, far planes from above.
     F near_bound[3], far_bound[3], rcp_min[3], rcp_max[3];
-    F along[3];
+    F along[3], first_org[3];
     for (int axis = 0; axis < 3; ++axis) {
         along[axis] = F(packet.negative[axis] ? S(-1) : S(1));
+        first_org[axis] = F(packet.org[axis][0]);
         near_bound[axis] = -infinity;
         far_bound[axis] = infinity;
         rcp_min[axis] = infinity;
         rcp_max[axis] = -infinity;
     }
-    F t_max(S(-1));
+    F t_max(S(-1)), apart(0);
     for (std::uint32_t i = 0; i < padded; i += W) {
         // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
         const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) +
@@ -143,6 +144,7 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
             store(packet.rcp[axis] + i, rcp);
             store(packet.org_near[axis] + i, o_near);
             store(packet.org_far[axis] + i, o_far);
+            apart = max(abs(o - first_org[axis]), apart);
             rcp_min[axis] = min(rcp_min[axis], rcp);
             rcp_max[axis] = max(rcp_max[axis], rcp);
             near_bound[axis] = max(near_bound[axis], along[axis] * o_near);
@@ -151,6 +153,7 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         t_max = max(t_max, load<F>(packet.t + i));
     }
     packet.t_max = reduce_max(t_max);
+    packet.common_origin = reduce_max(apart) == S(0);
     for (int axis = 0; axis < 3; ++axis) {
         packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
         packet.rcp_max[axis] = reduce_max(rcp_max[axis]);

@@ -46,17 +46,32 @@ LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r
     return {min(near, far), max(near, far), hit};
 }
 
-/// Which surface of a cylinder bounds each end of the crossing.
+/// Which surface of a cylinder or cone bounds each end of the crossing. Without its caps it is met at the other ends.
 template <FloatBatch F>
-struct CylinderCrossing {
+struct CappedCrossing {
     Crossing<F> ends;
     Mask<F> cap0, cap1;
 };
 
-/// Radius 1, y in [-1/2, 1/2]: the interval inside the infinite cylinder met with the interval between the caps. No case list, so
-/// no cap can be missed.
+/// The interval inside an endless body met with the interval between the caps y = -1/2 and 1/2. No case list, so no cap can be
+/// missed.
 template <FloatBatch F>
-LANECAST_INLINE CylinderCrossing<F> cross_cylinder(const Vec3<F>& o, const Vec3<F>& d, Mask<F> active) {
+LANECAST_INLINE CappedCrossing<F> clip_to_caps(const Vec3<F>& o, const Vec3<F>& d, F body0, F body1, Mask<F> body_hit) {
+    using S = Scalar<F>;
+    const F infinity(std::numeric_limits<S>::infinity());
+    const Mask<F> level = d.y == F(0);
+    const F a0 = (F(S(-0.5)) - o.y) / d.y, a1 = (F(S(0.5)) - o.y) / d.y;
+    const F cap0 = select(level, -infinity, min(a0, a1));
+    const F cap1 = select(level, infinity, max(a0, a1));
+    const Mask<F> between = abs(o.y) <= F(S(0.5));
+    const F t0 = max(body0, cap0), t1 = min(body1, cap1);
+    const Mask<F> hit = body_hit & (t0 <= t1) & ((!level) | between);
+    return {{t0, t1, hit}, cap0 > body0, cap1 < body1};
+}
+
+/// Radius 1, y in [-1/2, 1/2].
+template <FloatBatch F>
+LANECAST_INLINE CappedCrossing<F> cross_cylinder(const Vec3<F>& o, const Vec3<F>& d, Mask<F> active) {
     using S = Scalar<F>;
     const F infinity(std::numeric_limits<S>::infinity());
     const F a = d.x * d.x + d.z * d.z;
@@ -69,15 +84,7 @@ LANECAST_INLINE CylinderCrossing<F> cross_cylinder(const Vec3<F>& o, const Vec3<
     if (none(body_hit)) return {{body.t0, body.t1, body_hit}, body_hit, body_hit};
     const F body0 = select(parallel, -infinity, body.t0);
     const F body1 = select(parallel, infinity, body.t1);
-
-    const Mask<F> level = d.y == F(0);
-    const F a0 = (F(S(-0.5)) - o.y) / d.y, a1 = (F(S(0.5)) - o.y) / d.y;
-    const F cap0 = select(level, -infinity, min(a0, a1));
-    const F cap1 = select(level, infinity, max(a0, a1));
-    const Mask<F> between = abs(o.y) <= F(S(0.5));
-    const F t0 = max(body0, cap0), t1 = min(body1, cap1);
-    const Mask<F> hit = body_hit & (t0 <= t1) & ((!level) | between);
-    return {{t0, t1, hit}, cap0 > body0, cap1 < body1};
+    return clip_to_caps(o, d, body0, body1, body_hit);
 }
 
 } // namespace lanecast::inline LANECAST_ISA

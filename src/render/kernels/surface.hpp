@@ -1,6 +1,7 @@
 #pragma once
 // What a ray hit, recomputed once from t and slot when shading: a point on the surface, how far it may be off, the normal.
 
+#include "render/kernels/cone.hpp"
 #include "render/kernels/quadric.hpp"
 #include "render/kernels/slots.hpp"
 #include "render/kernels/triangle.hpp"
@@ -131,7 +132,7 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
     const AffineRecord& affine = scene.affines[record];
     const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
-    const CylinderCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
+    const CappedCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
     const Mask<F> enters = t == crossing.ends.t0;
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
     const Vec3<F> q = o + d * t;
@@ -141,6 +142,31 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
     const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, on_side);
     const Vec3<F> n = select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{on_side.x, zero, on_side.z});
     return affine_point(scene, record, p, n);
+}
+
+/// As a cylinder's, with or without caps.
+template <FloatBatch F>
+LANECAST_INLINE Point<F> cone_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
+    using S = Scalar<F>;
+    const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
+    const AffineRecord& affine = scene.affines[record];
+    const F taper(S(affine.taper)), zero(0), half(S(0.5));
+    const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
+    const CappedCrossing<F> crossing = cross_cone(o, d, taper, Mask<F>(true));
+    const Mask<F> enters = t == crossing.ends.t0;
+    const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
+    const Vec3<F> q = o + d * t;
+    // Onto the side along the likely error of q, which is that of the larger coordinates: on a flat cone far away that is y's.
+    const F distance = sqrt(q.x * q.x + q.z * q.z);
+    const F reach = abs(o.x) + abs(o.z) + F(1), rise = (abs(o.y) + half) * taper;
+    const F share = rise * (abs(o.y) + half) / (reach * reach + rise * rise);
+    const F y = max(min(q.y + (distance - fused(taper, q.y, F(1))) * share, half), -half);
+    const F radius = max(fused(taper, y, F(1)), zero);
+    const F inv_distance = select(distance > zero, F(1) / distance, zero); // 0: the apex, whose normal is the axis
+    const Vec3<F> away{q.x * inv_distance, zero, q.z * inv_distance};
+    const F side = copysign(half, select(enters, -d.y, d.y)); // as on a cylinder
+    const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, Vec3<F>{away.x * radius, y, away.z * radius});
+    return affine_point(scene, record, p, select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{away.x, -taper, away.z}));
 }
 
 template <FloatBatch F>
@@ -175,6 +201,9 @@ Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>&
         for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
             merge(point, same, detail::cylinder_point(scene, org, dir, t, s));
         });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cone) | kind_lanes(PrimitiveKind::open_cone); any(lanes))
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::cone_point(scene, org, dir, t, s)); });
     if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
         for_each_unique<F>(slot, lanes,
                            [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::plane_point(scene, org, dir, t, s)); });

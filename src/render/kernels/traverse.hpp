@@ -2,19 +2,9 @@
 // Packets through the tree: one interval test of a node's eight children for the whole packet, then each surviving child
 // against each vector that is still in its subtree; nearest child first. Where few rays are left, each goes on alone.
 
-#include "render/kernels/traverse_single.hpp"
+#include "render/kernels/traverse_stack.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
-
-/// A subtree that this many rays or fewer enter is walked by each of them alone. Measured: docs/performance.md.
-inline constexpr std::uint32_t few_rays = 4;
-
-/// The rays of a packet that enter a subtree.
-struct Entering {
-    std::uint32_t vectors; ///< bit v: some ray of vector v
-    std::uint32_t count;   ///< of the rays when they are few; 0: many, only `vectors` is known
-    std::uint8_t rays[few_rays];
-};
 
 template <FloatBatch F>
 struct StackEntry {
@@ -32,16 +22,17 @@ struct Occupancy {
 template <FloatBatch F>
 LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhNode& node, Scalar<F>* near) {
     using S = Scalar<F>;
+    using E = Eight<F>;
     std::uint32_t entered = 0;
-    for (int c = 0; c < 8; c += width<F>) {
-        F enter(0), leave{S(packet.t_max)};
+    for (int c = 0; c < 8; c += width<E>) {
+        E enter(S(0)), leave(packet.t_max);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
-            const F near_plane = load_eight<F>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
-            const F far_plane = load_eight<F>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
-            const F x = near_plane - F(packet.interval_near[axis]);
-            const F y = far_plane - F(packet.interval_far[axis]);
-            const F r0(packet.rcp_min[axis]), r1(packet.rcp_max[axis]);
+            const E near_plane = load_eight<E>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
+            const E far_plane = load_eight<E>((packet.negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
+            const E x = near_plane - E(packet.interval_near[axis]);
+            const E y = far_plane - E(packet.interval_far[axis]);
+            const E r0(packet.rcp_min[axis]), r1(packet.rcp_max[axis]);
             enter = max(min(x * r0, x * r1), enter);
             leave = min(max(y * r0, y * r1), leave);
         }
@@ -60,29 +51,42 @@ LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& n
         near_plane[axis] = F(S(packet.negative[axis] ? node.hi[axis][child] : node.lo[axis][child]));
         far_plane[axis] = F(S(packet.negative[axis] ? node.lo[axis][child] : node.hi[axis][child]));
     }
-    Entering entering{};
     std::uint32_t lanes_of[packet_vectors];
     std::uint32_t count = 0;
-    for_each_bit(vectors, [&](std::uint32_t vector) {
+    Entering entering{};
+    const auto test = [&](std::uint32_t vector, const F(&near)[3], const F(&far)[3]) {
         const std::uint32_t i = vector * width<F>;
         F enter(0), leave = load<F>(packet.t + i);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F rcp = load<F>(packet.rcp[axis] + i);
-            enter = max((near_plane[axis] - load<F>(packet.org_near[axis] + i)) * rcp, enter);
-            leave = min((far_plane[axis] - load<F>(packet.org_far[axis] + i)) * rcp, leave);
+            enter = max(near[axis] * rcp, enter);
+            leave = min(far[axis] * rcp, leave);
         }
         const std::uint32_t lanes = bits(enter <= leave);
         lanes_of[vector] = lanes;
         count += count_bits(lanes);
         entering.vectors |= (lanes != 0 ? 1u : 0u) << vector;
-    });
-    if (count > few_rays) return entering;
-    for_each_bit(entering.vectors, [&](std::uint32_t vector) {
-        for_each_bit(lanes_of[vector], [&](std::uint32_t lane) {
-            entering.rays[entering.count++] = static_cast<std::uint8_t>(vector * width<F> + lane);
+    };
+    if (packet.common_origin) { // one subtraction for all
+        F near[3], far[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            near[axis] = near_plane[axis] - load<F>(packet.org_near[axis]);
+            far[axis] = far_plane[axis] - load<F>(packet.org_far[axis]);
+        }
+        for_each_bit(vectors, [&](std::uint32_t vector) { test(vector, near, far); });
+    } else {
+        for_each_bit(vectors, [&](std::uint32_t vector) {
+            const std::uint32_t i = vector * width<F>;
+            F near[3], far[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                near[axis] = near_plane[axis] - load<F>(packet.org_near[axis] + i);
+                far[axis] = far_plane[axis] - load<F>(packet.org_far[axis] + i);
+            }
+            test(vector, near, far);
         });
-    });
+    }
+    list_few<F>(entering, lanes_of, count);
     return entering;
 }
 
@@ -92,23 +96,6 @@ LANECAST_INLINE void update_t_max(Packet<F>& packet) {
     for (int vector = 0; vector < packet.vectors; ++vector)
         t_max = max(t_max, load<F>(packet.t + static_cast<std::uint32_t>(vector) * width<F>));
     packet.t_max = reduce_max(t_max);
-}
-
-/// The few rays of an entry, one by one. Returns whether some ray's t changed.
-template <Query query, FloatBatch F>
-bool traverse_alone(const SceneView& scene, Packet<F>& packet, const StackEntry<F>& entry) {
-    bool changed = false;
-    for (std::uint32_t k = 0; k < entry.rays.count; ++k) {
-        const std::uint32_t i = entry.rays.rays[k];
-        if (entry.near > packet.t[i]) continue;
-        SingleRay<F> ray(packet, i);
-        if (!traverse_single<query>(scene, ray, packet.axes, packet.negative, entry.child) && ray.slot == packet.slot[i])
-            continue;
-        changed = true;
-        packet.t[i] = ray.t;
-        packet.slot[i] = ray.slot;
-    }
-    return changed;
 }
 
 /// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
@@ -125,9 +112,9 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
         const bool leaf = (entry.child & child_is_leaf) != 0;
         if (leaf || entry.rays.count > 0) {
             last = entry.rays.vectors;
-            const bool changed = entry.rays.count > 0 ? traverse_alone<query>(scene, packet, entry)
-                                                      : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
-            if (changed) {
+            const std::uint32_t changed = entry.rays.count > 0 ? traverse_alone<query>(scene, packet, entry.rays, entry.child)
+                                                               : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
+            if (changed != 0) {
                 update_t_max(packet);
                 if (query == Query::any && packet.t_max < Scalar<F>(0)) break;
             }
@@ -138,6 +125,7 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
         for_each_bit(enter_children(packet, node, near), [&](std::uint32_t c) {
             const Entering entering = enter_vectors(packet, node, c, entry.rays.vectors);
             if (entering.vectors == 0) return;
+            prefetch(scene, node.child[c]);
             // insertion by distance, the nearest on top
             int place = top++;
             for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];

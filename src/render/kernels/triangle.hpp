@@ -27,14 +27,13 @@ struct TriangleEdges {
     Mask<F> inside;
 };
 
-/// a, b, c in the ray's axes. Both neighbours of an edge compare the same two products, and rounding is monotone, so with the
-/// inclusive test no ray passes between them: 0 leaks in 1e9 edge- and 1e9 vertex-aimed rays.
+/// A, B, C: the vertices less the ray's origin, in the ray's axes. Both neighbours of an edge compare the same two products, and
+/// rounding is monotone, so with the inclusive test no ray passes between them: 0 leaks in 1e9 edge- and 1e9 vertex-aimed rays.
 template <FloatBatch F>
-LANECAST_INLINE TriangleEdges<F> triangle_edges(const ShearedRay<F>& ray, const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c) {
-    const Vec3<F> A = a - ray.org, B = b - ray.org, C = c - ray.org;
-    const F ax = A.x - ray.shear.x * A.z, ay = A.y - ray.shear.y * A.z;
-    const F bx = B.x - ray.shear.x * B.z, by = B.y - ray.shear.y * B.z;
-    const F cx = C.x - ray.shear.x * C.z, cy = C.y - ray.shear.y * C.z;
+LANECAST_INLINE TriangleEdges<F> triangle_edges(const Vec3<F>& shear, const Vec3<F>& A, const Vec3<F>& B, const Vec3<F>& C) {
+    const F ax = A.x - shear.x * A.z, ay = A.y - shear.y * A.z;
+    const F bx = B.x - shear.x * B.z, by = B.y - shear.y * B.z;
+    const F cx = C.x - shear.x * C.z, cy = C.y - shear.y * C.z;
     const F u0 = cx * by, u1 = cy * bx;
     const F v0 = ax * cy, v1 = ay * cx;
     const F w0 = bx * ay, w1 = by * ax;
@@ -42,12 +41,16 @@ LANECAST_INLINE TriangleEdges<F> triangle_edges(const ShearedRay<F>& ray, const 
     const Mask<F> back = (u0 <= u1) & (v0 <= v1) & (w0 <= w1);
     return {u0 - u1, v0 - v1, w0 - w1, A.z, B.z, C.z, Mask<F>(front | back)};
 }
+template <FloatBatch F>
+LANECAST_INLINE TriangleEdges<F> triangle_edges(const ShearedRay<F>& ray, const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c) {
+    return triangle_edges(ray.shear, a - ray.org, b - ray.org, c - ray.org);
+}
 
 /// Of the ray, in units of |dir|; NaN, which no range accepts, for a triangle seen edge-on (det = 0).
 template <FloatBatch F>
-LANECAST_INLINE F triangle_t(const ShearedRay<F>& ray, const TriangleEdges<F>& e) {
+LANECAST_INLINE F triangle_t(F inv_dz, const TriangleEdges<F>& e) {
     const F det = e.u + e.v + e.w;
-    const F depth = e.u * (ray.shear.z * e.az) + e.v * (ray.shear.z * e.bz) + e.w * (ray.shear.z * e.cz);
+    const F depth = e.u * (inv_dz * e.az) + e.v * (inv_dz * e.bz) + e.w * (inv_dz * e.cz);
     return depth / det;
 }
 
