@@ -9,7 +9,7 @@ Prints `file:line: what is wrong` for each finding; exit status 1 if there is on
             headers; of the standard library only headers without out-of-line code; only simd/isa.hpp includes xsimd and
             the intrinsics
   boundary  scene/scene_view.hpp, render/kernel_table.hpp: <cstdint> and each other, no function bodies
-  baseline  scene <- scene; render <- render, scene, but never a kernel; cli <- all of those; libraries as LIBRARIES says
+  baseline  scene <- scene; render <- render, scene, but never a kernel; lanecast and cli <- all of those; libraries as LIBRARIES says
 """
 import pathlib
 import re

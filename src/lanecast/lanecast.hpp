@@ -25,6 +25,7 @@ struct MeshArrays {
 struct BuildOptions {
     int threads = 0;                    ///< 0: the CPUs this process may use. The scene does not depend on it
     std::string isa = "auto";           ///< auto, scalar, sse4.2, avx2, avx512
+    std::string bvh = "default";        ///< default, or quality: slower to build, faster where triangles are long and thin
     std::string precision = "balanced"; ///< balanced, or reference: scalar, in double
 };
 

@@ -33,6 +33,12 @@ Precision precision_of(const std::string& name) {
     throw Error(ExitCode::usage, "precision '" + name + "' does not exist; expected balanced or reference");
 }
 
+BvhMode bvh_of(const std::string& name) {
+    if (name == "default") return BvhMode::standard;
+    if (name == "quality") return BvhMode::quality;
+    throw Error(ExitCode::usage, "bvh '" + name + "' does not exist; expected default or quality");
+}
+
 /// Empty for a single object that is not mirrored: scene ids are its own numbering.
 std::vector<StreamObject> number_objects(const SceneDescription& description) {
     std::vector<StreamObject> objects;
@@ -50,7 +56,9 @@ template <class Data>
 std::unique_ptr<Data> build(const SceneDescription& description, const BuildOptions& options, Clock::time_point begin) {
     auto data = std::make_unique<Data>();
     data->kernels = &find_kernels(options.isa, precision_of(options.precision));
-    data->arrays = flatten(description, description.render, options.threads > 0 ? options.threads : default_thread_count());
+    RenderSettings settings = description.render;
+    settings.bvh = bvh_of(options.bvh);
+    data->arrays = flatten(description, settings, options.threads > 0 ? options.threads : default_thread_count());
     data->scene = view(data->arrays);
     const Normalisation& normalisation = data->arrays.normalisation;
     for (int axis = 0; axis < 3; ++axis) data->units.centre[axis] = normalisation.centre[axis];

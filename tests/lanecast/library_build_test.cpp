@@ -106,6 +106,7 @@ TEST_CASE("faults name what is wrong") {
     }
     const MeshArrays good{corners, 6, triangles, 2};
     CHECK(fault([&] { Scene(good, {.isa = "neon"}); }).find("neon") != std::string::npos);
+    CHECK(fault([&] { Scene(good, {.bvh = "best"}); }).find("best") != std::string::npos);
     CHECK(fault([&] { Scene(good, {.precision = "rough"}); }).find("rough") != std::string::npos);
     CHECK(fault([&] { Scene(std::filesystem::path("/nowhere/at.ply")); }).find("/nowhere/at.ply") != std::string::npos);
     CHECK(fault([&] { Scene(std::filesystem::path("/nowhere/at.json")); }).find("/nowhere/at.json") != std::string::npos);

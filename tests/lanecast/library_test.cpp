@@ -178,6 +178,21 @@ TEST_CASE("balanced has the same bits on every instruction set") {
     }
 }
 
+TEST_CASE("the tree decides the time only") {
+    Random random(27);
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<TestMesh> meshes{random_mesh(random, 600, 2), random_mesh(random, 600, 2)};
+        const TestRays rays = random_rays(random, 2000, 2);
+        TestHits plain(rays.size()), quality(rays.size());
+        Scene(arrays_of(meshes)).closest_hit(rays.arrays(), plain.arrays());
+        const Scene scene(arrays_of(meshes), {.bvh = "quality"});
+        scene.closest_hit(rays.arrays(), quality.arrays());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) different += quality.same(i, plain, i) ? 0 : 1;
+        CHECK(different == 0);
+    }
+}
+
 TEST_CASE("the unit of length may be any power of two") {
     Random random(23);
     const TestMesh mesh = random_mesh(random, 200, 1, {0.25, -3, 7});

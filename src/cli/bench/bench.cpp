@@ -30,7 +30,7 @@ struct BenchRequest {
     bool no_ground = false;
     bool no_peer = false;
     bool calls = false;
-    std::vector<std::string> kinds, isas, precisions{"balanced"};
+    std::vector<std::string> kinds, isas, precisions{"balanced"}, trees{"default"};
     std::vector<int> threads{1};
     std::size_t rays = 262144;
     std::size_t check = 65536;
@@ -138,7 +138,8 @@ int run(const BenchRequest& request) {
     Contenders contenders;
     for (const std::string& isa : isas) {
         for (const std::string& precision : request.precisions)
-            add_ours(contenders, report.builds, mesh, isa, precision, threads);
+            for (const std::string& tree : request.trees)
+                add_ours(contenders, report.builds, mesh, isa, precision, tree, threads);
         if (!request.no_peer) add_embree(contenders, report.builds, mesh, isa, threads);
     }
     const Scene scene(mesh.arrays(), {.threads = threads});
@@ -182,6 +183,7 @@ void add_bench(CLI::App& app, Command& chosen) {
         ->type_name("LIST");
     command->add_option("--isa", request->isas, "Instruction sets; default: all but scalar")->delimiter(',')->type_name("LIST");
     command->add_option("--precision", request->precisions, "Precisions; default: balanced")->delimiter(',')->type_name("LIST");
+    command->add_option("--bvh", request->trees, "Trees: default, quality; default: default")->delimiter(',')->type_name("LIST");
     command->add_option("--threads", request->threads, "Numbers of threads; default: 1")
         ->delimiter(',')
         ->check(CLI::Range(1, 1024))

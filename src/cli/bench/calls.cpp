@@ -45,7 +45,7 @@ struct Outputs {
 
 std::string measure_scene(const std::string& name, const MeshArrays& arrays, const RaySet& rays, const std::string& isa,
                           int repetitions) {
-    const BuildOptions options{.threads = 0, .isa = isa, .precision = "balanced"};
+    const BuildOptions options{.threads = 0, .isa = isa, .bvh = "default", .precision = "balanced"};
     const Scene scene(arrays, options);
     const SceneDescription description = describe(std::span(&arrays, 1));
     const SceneArrays flat = flatten(description, description.render, 1);

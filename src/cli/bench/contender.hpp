@@ -20,7 +20,7 @@ public:
     std::string library;   ///< with its version: "lanecast 0.1.0", "embree 3.13.5"
     std::string isa;       ///< "sse4.2", "avx2", "avx512", "scalar"
     std::string precision; ///< "balanced", "reference"; of others "-"
-    std::string mode;      ///< "stream", "high:16c": build quality, width, coherent flag
+    std::string mode;      ///< ours: the tree, "default" or "quality"; "high:16c": build quality, width, coherent flag
     bool ours = false;
 
     virtual ~Contender() = default;
@@ -38,7 +38,7 @@ struct BuildRow {
 };
 
 void add_ours(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,
-              const std::string& precision, int threads);
+              const std::string& precision, const std::string& bvh, int threads);
 
 /// Every mode of Embree worth trying at that instruction set. Does nothing where it is not there.
 void add_embree(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,

@@ -3,7 +3,7 @@
 
 #include "cli/bench/contender.hpp"
 
-#if LANECAST_EMBREE == 4
+#if LANECAST_EMBREE_MAJOR == 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
@@ -54,7 +54,7 @@ T& lane_of(T (&field)[n], std::size_t lane) {
     return field[lane];
 }
 
-#if LANECAST_EMBREE == 4
+#if LANECAST_EMBREE_MAJOR == 4
 struct Asking {
     RTCIntersectArguments intersect;
     RTCOccludedArguments occluded;

@@ -74,15 +74,15 @@ private:
 } // namespace
 
 void add_ours(Contenders& contenders, std::vector<BuildRow>& builds, const BenchMesh& mesh, const std::string& isa,
-              const std::string& precision, int threads) {
-    Scene scene(mesh.arrays(), {.threads = threads, .isa = isa, .precision = precision});
+              const std::string& precision, const std::string& bvh, int threads) {
+    Scene scene(mesh.arrays(), {.threads = threads, .isa = isa, .bvh = bvh, .precision = precision});
     const SceneFacts facts = scene.facts();
     auto contender = std::make_unique<Ours>(std::move(scene));
     contender->library = "lanecast " LANECAST_VERSION;
     contender->isa = facts.isa;
     contender->precision = precision;
-    contender->mode = "stream";
-    builds.push_back({contender->library, facts.isa, "default", facts.build_seconds, static_cast<double>(facts.bytes)});
+    contender->mode = bvh;
+    builds.push_back({contender->library, facts.isa, bvh, facts.build_seconds, static_cast<double>(facts.bytes)});
     contenders.push_back(std::move(contender));
 }
 

@@ -29,6 +29,7 @@ std::vector<Group> groups_of(const Report& report, bool ratios) {
         const double unit = ratios ? peer->rate.rays_per_second : 1e6;
         std::string label = row.isa;
         if (row.precision != "balanced") label += " " + row.precision;
+        if (row.mode == "quality") label += " quality";
         if (row.threads != 1) label += ", " + std::to_string(row.threads) + " threads";
         groups.back().bars.push_back({label, row.rate.rays_per_second / unit, row.rate.low / unit, row.rate.high / unit});
     }

@@ -26,9 +26,9 @@ std::string disagreements(const Disagreements& d) {
 }
 
 void add_row(const Report& report, const Row& row, std::string& text) {
-    text += filled(row.rays, 10) + filled(row.isa, 8) + filled(row.precision, 11) + padded(std::to_string(row.threads), 3) +
-            padded(short_count(static_cast<double>(row.count)), 9) + padded(fixed(row.rate.rays_per_second * 1e-6, 2), 9) +
-            padded("+-" + spread(row.rate), 7);
+    text += filled(row.rays, 10) + filled(row.isa, 8) + filled(row.precision, 11) + filled(row.mode, 8) +
+            padded(std::to_string(row.threads), 3) + padded(short_count(static_cast<double>(row.count)), 9) +
+            padded(fixed(row.rate.rays_per_second * 1e-6, 2), 9) + padded("+-" + spread(row.rate), 7);
     if (const Row* peer = best_peer(report, row))
         text += padded(fixed(peer->rate.rays_per_second * 1e-6, 2), 9) + padded("+-" + spread(peer->rate), 7) + "  " +
                 filled(peer->mode, 11) + padded(fixed(row.rate.rays_per_second / peer->rate.rays_per_second, 2), 6);
@@ -60,8 +60,8 @@ std::string text_report(const Report& report) {
                 padded(fixed(triangles / build.seconds * 1e-6, 2), 9) + padded(fixed(build.bytes / triangles, 1), 8) + "\n";
     }
     const auto peer = std::find_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return !row.ours; });
-    text += "\n" + filled("rays", 10) + filled("isa", 8) + filled("precision", 11) + "thr" + padded("count", 9) +
-            padded("Mray/s", 9) + padded("", 7);
+    text += "\n" + filled("rays", 10) + filled("isa", 8) + filled("precision", 11) + filled("tree", 8) + "thr" +
+            padded("count", 9) + padded("Mray/s", 9) + padded("", 7);
     if (peer != report.rows.end()) text += padded("peer", 9) + padded("", 7) + "  " + filled("its mode", 11) + padded("ratio", 6);
     text += "   disagreements\n";
     for (const Row& row : report.rows)
