@@ -27,7 +27,7 @@ using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 [[nodiscard]] inline Float4 max4(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
 [[nodiscard]] inline Float4 splat4(float x) noexcept { return Float4{x, x, x, x}; }
 
-/// x y z; the fourth lane is 0, so that no arithmetic meets the bits of an index.
+/// x y z of four readable floats; the fourth lane is 0, so that no arithmetic meets the bits of an index.
 [[nodiscard]] inline Float4 load_xyz(const float* p) noexcept {
     Int4 bits;
     std::memcpy(&bits, p, sizeof bits);

@@ -24,7 +24,8 @@ struct SpatialSplits {
                                   BuildRange halves[2]);
 
 /// The triangle's parts below and above x on an axis, within the reference's box: bit 0, bit 1 where that part is not empty.
-/// Boxes are 2^-14 of the triangle's extent larger: t of a ray nearly in its plane may be that far off (docs/numerics.md).
+/// A corner is four readable floats. Boxes are 2^-14 of the triangle's extent larger: t of a ray nearly in its plane may be that
+/// far off (docs/numerics.md).
 [[nodiscard]] unsigned chop(const BuildRef& ref, const std::array<const float*, 3>& corners, int axis, float x,
                             BuildRef parts[2]);
 

@@ -118,7 +118,7 @@ TEST_CASE("spatial splits: every point of a triangle in some leaf, the same byte
 TEST_CASE("parts of a chopped triangle: within the reference, with every point of it") {
     Random random(6);
     for (int i = 0; i < 20000; ++i) {
-        float v[3][3];
+        float v[3][4] = {}; // four floats of each may be read
         BuildRef ref{};
         for (int axis = 0; axis < 3; ++axis) {
             for (auto& corner : v) corner[axis] = static_cast<float>(random.uniform(-1, 1));
