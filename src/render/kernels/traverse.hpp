@@ -102,6 +102,7 @@ LANECAST_INLINE void update_t_max(Packet<F>& packet) {
 template <Query query, FloatBatch F>
 std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
     std::uint32_t last = (1u << packet.vectors) - 1u;
+    const bool from_far = far_first<query>(packet.common_origin);
     StackEntry<F> stack[stack_capacity];
     int top = 0;
     stack[top++] = {0, 0, {last, 0, {}}};
@@ -128,7 +129,8 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
             prefetch(scene, node.child[c]);
             // insertion by distance, what is tried first on top
             int place = top++;
-            for (; place > first_pushed && tried_before<query>(stack[place - 1].near, near[c]); --place)
+            for (; place > first_pushed && (from_far ? stack[place - 1].near > near[c] : stack[place - 1].near < near[c]);
+                 --place)
                 stack[place] = stack[place - 1];
             stack[place] = {node.child[c], near[c], entering};
         });

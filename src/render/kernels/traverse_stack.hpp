@@ -35,7 +35,7 @@ std::uint32_t traverse_alone(const SceneView& scene, Packet<F>& packet, const En
         if (packet.t[i] < Scalar<F>(0)) continue;
         const std::uint32_t vector = i / width<F>;
         SingleRay<F> ray(packet, i);
-        if (!traverse_single<query>(scene, ray, packet.axes, packet.negative, child) && ray.slot == packet.slot[i]) continue;
+        if (!traverse_single<query>(scene, ray, packet, child) && ray.slot == packet.slot[i]) continue;
         changed |= 1u << vector;
         packet.t[i] = ray.t;
         packet.slot[i] = ray.slot;
