@@ -98,11 +98,12 @@ TEST_CASE("the pictures of random scenes are those of an independent tracer") {
         for (int kind = 0; kind < ray_kind_count; ++kind) rays[kind] += frame.stats.tiles.kinds[kind].rays;
         CHECK(reference.wrong - wrong <= 1);
     }
-    // the pictures show something: in any choice of scenes, every other pixel mirrors and refracts
+    // the pictures show something; sanitizers see fewer scenes, of another mix
+    const std::uint64_t share = cases(480) == 480 ? 1 : 2;
     const auto rays_of = [&](RayKind kind) { return rays[static_cast<int>(kind)]; };
     CHECK(rays_of(RayKind::shadow) > rays_of(RayKind::primary));
-    CHECK(2 * rays_of(RayKind::reflection) > rays_of(RayKind::primary));
-    CHECK(2 * rays_of(RayKind::refraction) > rays_of(RayKind::primary));
+    CHECK(share * rays_of(RayKind::reflection) > rays_of(RayKind::primary));
+    CHECK(share * rays_of(RayKind::refraction) > rays_of(RayKind::primary));
     MESSAGE(rays_of(RayKind::shadow), " shadow, ", rays_of(RayKind::reflection), " reflected, ", rays_of(RayKind::refraction),
             " transmitted rays");
     const auto report = [](const std::string& name, Agreement& a) {
