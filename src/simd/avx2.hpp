@@ -22,6 +22,15 @@ LANECAST_INLINE VectorInt shift_left(VectorInt a, int n) { return _mm256_slli_ep
 LANECAST_INLINE VectorInt shift_right(VectorInt a, int n) { return _mm256_srai_epi32(a.r, n); }
 LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm256_cvtepi32_ps(a.r); }
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm256_cvttps_epi32(a.r); }
+LANECAST_INLINE VectorFloat multiply_subtract(VectorFloat a, VectorFloat b, VectorFloat c) {
+    return _mm256_fmsub_ps(a.r, b.r, c.r);
+}
+LANECAST_INLINE VectorFloat evens(VectorFloat a, VectorFloat b) {
+    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(_mm256_shuffle_ps(a.r, b.r, 0x88)), 0xd8));
+}
+LANECAST_INLINE VectorFloat odds(VectorFloat a, VectorFloat b) {
+    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(_mm256_shuffle_ps(a.r, b.r, 0xdd)), 0xd8));
+}
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm256_sqrt_ps(a.r); }
 LANECAST_INLINE VectorFloat load_vector(const float* p) { return _mm256_loadu_ps(p); }
 LANECAST_INLINE VectorInt load_vector(const std::int32_t* p) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)); }

@@ -34,6 +34,9 @@ LANECAST_INLINE VectorInt shift_left(VectorInt a, int n) { return _mm512_slli_ep
 LANECAST_INLINE VectorInt shift_right(VectorInt a, int n) { return _mm512_srai_epi32(a.r, static_cast<unsigned>(n)); }
 LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm512_cvtepi32_ps(a.r); }
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm512_cvttps_epi32(a.r); }
+LANECAST_INLINE VectorFloat multiply_subtract(VectorFloat a, VectorFloat b, VectorFloat c) {
+    return _mm512_fmsub_ps(a.r, b.r, c.r);
+}
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm512_sqrt_ps(a.r); }
 LANECAST_INLINE VectorFloat load_vector(const float* p) { return _mm512_loadu_ps(p); }
 LANECAST_INLINE VectorInt load_vector(const std::int32_t* p) { return _mm512_loadu_si512(p); }
@@ -41,6 +44,14 @@ LANECAST_INLINE void store(float* p, VectorFloat a) { _mm512_storeu_ps(p, a.r); 
 LANECAST_INLINE void store(std::int32_t* p, VectorInt a) { _mm512_storeu_si512(p, a.r); }
 LANECAST_INLINE float reduce_min(VectorFloat a) { return _mm512_reduce_min_ps(a.r); }
 LANECAST_INLINE float reduce_max(VectorFloat a) { return _mm512_reduce_max_ps(a.r); }
+LANECAST_INLINE VectorFloat evens(VectorFloat a, VectorFloat b) {
+    const __m512i lanes = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    return _mm512_permutex2var_ps(a.r, lanes, b.r);
+}
+LANECAST_INLINE VectorFloat odds(VectorFloat a, VectorFloat b) {
+    const __m512i lanes = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    return _mm512_permutex2var_ps(a.r, lanes, b.r);
+}
 LANECAST_INLINE VectorFloat gather(const float* p, VectorInt i) { return _mm512_i32gather_ps(i.r, p, 4); }
 LANECAST_INLINE VectorInt gather(const std::int32_t* p, VectorInt i) { return _mm512_i32gather_epi32(i.r, p, 4); }
 // To a register and then a full store: compressing to memory is microcoded on Zen 4, some 100 cycles.
@@ -78,11 +89,19 @@ struct EightFloat {
     LANECAST_INLINE friend EightFloat operator-(EightFloat a, EightFloat b) { return _mm256_sub_ps(a.r, b.r); }
     LANECAST_INLINE friend EightFloat operator*(EightFloat a, EightFloat b) { return _mm256_mul_ps(a.r, b.r); }
     LANECAST_INLINE friend EightFloat operator/(EightFloat a, EightFloat b) { return _mm256_div_ps(a.r, b.r); }
+    LANECAST_INLINE friend EightMask operator<(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_LT_OQ); }
+    LANECAST_INLINE friend EightMask operator>(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GT_OQ); }
     LANECAST_INLINE friend EightMask operator<=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_LE_OQ); }
     LANECAST_INLINE friend EightMask operator>=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GE_OQ); }
 };
 LANECAST_INLINE EightFloat min(EightFloat a, EightFloat b) { return _mm256_min_ps(a.r, b.r); }
 LANECAST_INLINE EightFloat max(EightFloat a, EightFloat b) { return _mm256_max_ps(a.r, b.r); }
+LANECAST_INLINE EightFloat multiply_subtract(EightFloat a, EightFloat b, EightFloat c) { return _mm256_fmsub_ps(a.r, b.r, c.r); }
+LANECAST_INLINE EightFloat abs(EightFloat a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.r); }
+LANECAST_INLINE EightFloat copysign(EightFloat magnitude, EightFloat sign) {
+    return _mm256_or_ps(abs(magnitude).r, _mm256_and_ps(_mm256_set1_ps(-0.0f), sign.r));
+}
+LANECAST_INLINE EightFloat select(EightMask m, EightFloat a, EightFloat b) { return _mm256_mask_blend_ps(m.r, b.r, a.r); }
 LANECAST_INLINE void store(float* p, EightFloat a) { _mm256_storeu_ps(p, a.r); }
 LANECAST_INLINE std::uint32_t bits(EightMask m) { return m.r; }
 LANECAST_INLINE bool none(EightMask m) { return m.r == 0; }

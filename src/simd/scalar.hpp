@@ -65,6 +65,11 @@ LANECAST_INLINE float fused(float a, float b, float c) {
     return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
 }
 LANECAST_INLINE double fused(double a, double b, double c) { return a * b + c; }
+/// a * b - c, rounded once where the ISA has the instruction and twice elsewhere: for bounds only.
+template <ScalarBatch T>
+LANECAST_INLINE T multiply_subtract(T a, T b, T c) {
+    return a * b - c;
+}
 /// a2 + b2 + c2 - d2 computed in double and rounded once.
 LANECAST_INLINE float sum_of_squares_less(float a, float b, float c, float d) {
     const double x = static_cast<double>(a), y = static_cast<double>(b), z = static_cast<double>(c), w = static_cast<double>(d);

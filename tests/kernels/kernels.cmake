@@ -2,6 +2,7 @@
 lanecast_isa_test(test_simd LABELS unit determinism SOURCES kernels/simd_test.cpp)
 lanecast_isa_test(test_pow LABELS unit determinism SOURCES kernels/pow_test.cpp)
 lanecast_isa_test(test_triangle LABELS unit SOURCES kernels/triangle_test.cpp)
+lanecast_isa_test(test_candidates LABELS unit determinism SOURCES kernels/candidates_test.cpp)
 lanecast_isa_test(test_quadric LABELS unit SOURCES kernels/quadric_test.cpp)
 lanecast_isa_test(test_optics LABELS unit SOURCES kernels/optics_test.cpp)
 lanecast_isa_test(test_cone LABELS unit SOURCES kernels/cone_test.cpp)

@@ -290,3 +290,39 @@ TEST_CASE("degenerate and edge-on triangles are not hit, or have a t in range; N
     CHECK(bad == 0);
     CHECK(hits > 0);
 }
+
+TEST_CASE("a ray in the plane of a triangle does not hit it beside itself") {
+    Lottery random(9);
+    const FlushDenormals flush;
+    std::uint64_t ties = 0, hits = 0;
+    for (int n = 0; n < cases(2000000); n += W) {
+        // a direction, and a triangle that lies `beside` to one side of the ray along it
+        const auto d = random.direction(), side = random.direction();
+        Point v[3];
+        double depth[3], beside[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            depth[k] = random.uniform(1, 2);
+            beside[k] = random.magnitude(1e-3, 1);
+        }
+        alignas(64) S org[3][W], dir[3][W];
+        std::array<double, 3> from{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            from[axis] = random.uniform(-1, 1);
+            for (std::size_t k = 0; k < 3; ++k)
+                v[k][axis] = static_cast<float>(from[axis] + depth[k] * d[axis] + beside[k] * side[axis]);
+        }
+        for (int lane = 0; lane < W; ++lane)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                org[axis][lane] = static_cast<S>(from[axis] + 1e-3 * lane * d[axis]);
+                dir[axis][lane] = static_cast<S>(d[axis]);
+            }
+        const Axes axes = axes_of(dominant(dir, 0));
+        const ShearedRay<F> ray = shear(axes, org, dir);
+        const TriangleEdges<F> e = triangle_edges(ray, vertex(axes, v[0]), vertex(axes, v[1]), vertex(axes, v[2]));
+        ties += static_cast<std::uint64_t>(std::popcount(bits((e.u == F(0)) | (e.v == F(0)) | (e.w == F(0)))));
+        const F t = triangle_t(ray.shear.z, e);
+        hits += static_cast<std::uint64_t>(std::popcount(bits(e.inside & (t > F(0)) & (t <= F(no_limit<S>)))));
+    }
+    CHECK((sizeof(S) == sizeof(double) || ties > 0)); // of float vertices in double none are exact
+    CHECK(hits == 0);
+}

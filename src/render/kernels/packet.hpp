@@ -9,6 +9,23 @@ namespace lanecast::inline LANECAST_ISA {
 
 inline constexpr int packet_vectors = 16;
 
+/// What the rays of a packet have in common.
+enum class Common : std::uint8_t { unknown, nothing, point, direction };
+
+/// The rays of a packet as points of a plane, in its axes (footprints.hpp). With d = v - apex, the point v of the scene has the
+/// image (d.x - shear.x d.z - offset.x, d.y - shear.y d.z - offset.y, w), homogeneous: w = d.z as seen from a point, 1 along a
+/// direction. The middle of all rays is at 0.
+template <FloatBatch F>
+struct Footprints {
+    using S = Scalar<F>;
+    Common common;
+    S apex[3], shear[2], offset[2];
+    S lo[2][packet_vectors], hi[2][packet_vectors]; ///< of each vector's rays
+    S reach;                                        ///< the largest |x|, |y| of all rays
+    S range;                                        ///< largest distance of an origin from the apex along one axis
+    S slack;                                        ///< how far from the apex, along x or y, a ray may pass
+};
+
 template <FloatBatch F>
 struct Packet {
     using S = Scalar<F>;
@@ -39,7 +56,9 @@ struct Packet {
     // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
     S interval_near[3], interval_far[3];
     S rcp_min[3], rcp_max[3];
-    S t_max; ///< largest t
+    S t_max;      ///< largest t
+    S first_tmax; ///< of ray 0
+    Footprints<F> prints;
 
     [[nodiscard]] LANECAST_INLINE Vec3<F> origin_in_axes(std::uint32_t i) const {
         return {load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)};
@@ -153,6 +172,8 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         t_max = max(t_max, load<F>(packet.t + i));
     }
     packet.t_max = reduce_max(t_max);
+    packet.first_tmax = packet.t[0];
+    packet.prints.common = Common::unknown;
     packet.common_origin = reduce_max(apart) == S(0);
     for (int axis = 0; axis < 3; ++axis) {
         packet.rcp_min[axis] = reduce_min(rcp_min[axis]);

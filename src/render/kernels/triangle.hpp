@@ -29,6 +29,7 @@ struct TriangleEdges {
 
 /// A, B, C: the vertices less the ray's origin, in the ray's axes. Both neighbours of an edge compare the same two products, and
 /// rounding is monotone, so with the inclusive test no ray passes between them: 0 leaks in 1e9 edge- and 1e9 vertex-aimed rays.
+/// A triangle seen edge-on may tie at all edges, for rays beside it too: the ray must lie in the span of the vertices.
 template <FloatBatch F>
 LANECAST_INLINE TriangleEdges<F> triangle_edges(const Vec3<F>& shear, const Vec3<F>& A, const Vec3<F>& B, const Vec3<F>& C) {
     const F ax = A.x - shear.x * A.z, ay = A.y - shear.y * A.z;
@@ -37,9 +38,10 @@ LANECAST_INLINE TriangleEdges<F> triangle_edges(const Vec3<F>& shear, const Vec3
     const F u0 = cx * by, u1 = cy * bx;
     const F v0 = ax * cy, v1 = ay * cx;
     const F w0 = bx * ay, w1 = by * ax;
+    const Mask<F> spans = max(min(ax * bx, ax * cx), min(ay * by, ay * cy)) <= F(0);
     const Mask<F> front = (u0 >= u1) & (v0 >= v1) & (w0 >= w1);
     const Mask<F> back = (u0 <= u1) & (v0 <= v1) & (w0 <= w1);
-    return {u0 - u1, v0 - v1, w0 - w1, A.z, B.z, C.z, Mask<F>(front | back)};
+    return {u0 - u1, v0 - v1, w0 - w1, A.z, B.z, C.z, Mask<F>((front | back) & spans)};
 }
 template <FloatBatch F>
 LANECAST_INLINE TriangleEdges<F> triangle_edges(const ShearedRay<F>& ray, const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c) {
