@@ -72,15 +72,6 @@ void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const Bin
     for (; i < count; ++i) add(bins, refs[i], mapping);
 }
 
-/// Half areas of three boxes at once, in the first three lanes.
-Float4 half_areas(const Float4 lo[3], const Float4 hi[3]) {
-    const Float4 a = hi[0] - lo[0], b = hi[1] - lo[1], c = hi[2] - lo[2];
-    const Float4 ab = __builtin_shuffle(a, b, Int4{0, 4, 1, 5});
-    const Float4 x = __builtin_shuffle(ab, c, Int4{0, 1, 4, 7}), y = __builtin_shuffle(ab, c, Int4{2, 3, 5, 7});
-    const Float4 z = __builtin_shuffle(__builtin_shuffle(a, b, Int4{2, 6, 3, 7}), c, Int4{0, 1, 6, 7});
-    return x * (y + z) + y * z;
-}
-
 Int4 counts_of(const Bins& bins, int b) {
     return Int4{static_cast<std::int32_t>(bins.bin[0][b].count), static_cast<std::int32_t>(bins.bin[1][b].count),
                 static_cast<std::int32_t>(bins.bin[2][b].count), 0};
@@ -88,19 +79,19 @@ Int4 counts_of(const Bins& bins, int b) {
 
 /// Cheapest cut of all axes: area times count, summed over both halves. A lane per axis.
 BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
-    Float4 lo[3], hi[3], right_area[max_bins];
+    Float4 lo[4], hi[4], right_area[max_bins]; // the fourth box stays empty
     const auto grow_all = [&](int b) {
         for (int axis = 0; axis < 3; ++axis) {
             lo[axis] = min4(lo[axis], bins.bin[axis][b].lo);
             hi[axis] = max4(hi[axis], bins.bin[axis][b].hi);
         }
     };
-    std::fill_n(lo, 3, splat4(empty_lo)), std::fill_n(hi, 3, splat4(-empty_lo));
+    std::fill_n(lo, 4, splat4(empty_lo)), std::fill_n(hi, 4, splat4(-empty_lo));
     for (int b = used - 1; b > 0; --b) {
         grow_all(b);
         right_area[b] = half_areas(lo, hi);
     }
-    std::fill_n(lo, 3, splat4(empty_lo)), std::fill_n(hi, 3, splat4(-empty_lo));
+    std::fill_n(lo, 4, splat4(empty_lo)), std::fill_n(hi, 4, splat4(-empty_lo));
     const auto all = static_cast<std::int32_t>(total);
     Int4 left{}, best_bin{}, best_left{};
     Float4 best_cost = splat4(std::numeric_limits<float>::infinity());
