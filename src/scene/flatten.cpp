@@ -164,6 +164,7 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     const FlatObjects objects = prepare_objects(scene);
     constexpr std::size_t worth_a_thread = 4096; // primitives: below, starting a thread takes longer than the work
     if (objects.refs < worth_a_thread) threads = 1;
+    const Team team(threads);
     const std::vector<DoubleBox> boxes = bounds_of(objects, threads);
     DoubleBox bounds;
     for (const DoubleBox& box : boxes) include(bounds, box);
@@ -188,7 +189,6 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     arrays.arena = std::move(tree.arena);
     arrays.arena_bytes = tree.arena_bytes;
     arrays.leaves = std::move(tree.leaves);
-    arrays.quality = tree.quality;
     arrays.max_coordinate = tree.max_coordinate;
     arrays.build_seconds = seconds_since(build_start);
 

@@ -59,6 +59,19 @@ std::array<std::uint32_t, 3> wound(const Mesh& mesh, bool mirrored, std::uint32_
     return v;
 }
 
+Float4 magnitude(Float4 x) { return max4(x, -x); }
+
+/// True where the cross product of two edges, in float, is larger than its rounding: 4 u (|p| + |q|) and what underflows. False
+/// says nothing. Almost every triangle passes, in a tenth of the time that is_degenerate takes.
+bool surely_has_area(Float4 a, Float4 b, Float4 c) {
+    const Float4 u = b - a, v = c - a;
+    const Float4 u_yzx = __builtin_shufflevector(u, u, 1, 2, 0, 3), u_zxy = __builtin_shufflevector(u, u, 2, 0, 1, 3);
+    const Float4 v_yzx = __builtin_shufflevector(v, v, 1, 2, 0, 3), v_zxy = __builtin_shufflevector(v, v, 2, 0, 1, 3);
+    const Float4 p = u_yzx * v_zxy, q = u_zxy * v_yzx;
+    const Int4 sure = magnitude(p - q) > (magnitude(p) + magnitude(q)) * 0x1p-21f + 0x1p-100f;
+    return (sure[0] | sure[1] | sure[2]) != 0;
+}
+
 } // namespace
 
 std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads) {
@@ -129,7 +142,7 @@ std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& ver
             std::memcpy(ref.hi, &hi, sizeof ref.hi);
             ref.item = static_cast<std::uint32_t>(i);
             ref.source = source;
-            if (is_degenerate(a, b, c)) ref.source = dropped_source, ++piece_dropped;
+            if (!surely_has_area(va, vb, vc) && is_degenerate(a, b, c)) ref.source = dropped_source, ++piece_dropped;
             own[i] = ref;
         }
         dropped += piece_dropped;

@@ -2,6 +2,7 @@
 
 #include "cli/print.hpp"
 #include "lanecast/describe.hpp"
+#include "scene/bvh_quality.hpp"
 #include "scene/flatten.hpp"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ std::string measure_builds(const BenchMesh& mesh, const std::string& isa, const 
             const SceneArrays built = flatten(scene, settings, request.threads);
             watch.stop(own);
             own.bytes = static_cast<double>(memory_bytes(built));
-            quality = built.quality;
+            quality = measure_quality(built.arena.get());
         }
         let_threads_sleep();
         const bool there = request.with_peer && time_embree_build(mesh, isa, request.high, request.threads, peer);
