@@ -114,6 +114,7 @@ constexpr const char* compiler = "g++ " __VERSION__;
 
 /// A line per size, tree, instruction set and number of threads.
 void measure_builds(const BenchRequest& request, const std::vector<std::string>& isas) {
+    for (const std::string& isa : isas) static_cast<void>(find_kernels(isa, Precision::balanced)); // refuses what is not there
     bool header = true;
     for (const std::size_t triangles : request.triangles.empty() ? std::vector{usual_terrain} : request.triangles) {
         const BenchMesh mesh = make_mesh(request.mesh, triangles);
