@@ -34,7 +34,7 @@ void grow(Bin& bin, Float4 lo, Float4 hi) {
     bin.hi = max4(bin.hi, hi);
 }
 
-/// Where the bins of the three axes lie is computed for all at once: a fifth of the instructions.
+/// Where the bins of the three axes lie is computed for all at once.
 void add(Bins& bins, const BuildRef& ref, const BinMapping& mapping) {
     constexpr std::int32_t bytes = sizeof(Bin);
     const Float4 lo = lo_of(ref), hi = hi_of(ref);
