@@ -3,6 +3,7 @@
 #include "cli/json_writer.hpp"
 #include "cli/scene_counts.hpp"
 #include "render/dispatch.hpp"
+#include "scene/bvh_quality.hpp"
 
 #include <cmath>
 #include <span>
@@ -80,7 +81,7 @@ std::string info_json(const RequestedScene& scene, const SceneArrays& arrays) {
         json.add_null("bounds_max");
     }
     json.add("memory_bytes", memory_bytes(arrays));
-    add_tree(json, arrays.quality);
+    add_tree(json, measure_quality(arrays.arena.get()));
     json.open_object("features");
     for (const Feature& feature : features_of(arrays, scene.settings)) json.add(feature.name, feature.used);
     json.close_object();

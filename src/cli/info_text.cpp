@@ -4,6 +4,7 @@
 #include "cli/print.hpp"
 #include "cli/scene_counts.hpp"
 #include "render/dispatch.hpp"
+#include "scene/bvh_quality.hpp"
 #include "scene/text_tools.hpp"
 
 #include <cmath>
@@ -94,7 +95,7 @@ std::string info_text(const RequestedScene& scene, const SceneArrays& arrays) {
     const auto bytes = static_cast<double>(memory_bytes(arrays));
     line(text, "memory",
          short_bytes(bytes) + (slots > 0 ? ", " + fixed(bytes / static_cast<double>(slots), 1) + " bytes per primitive" : ""));
-    add_tree(text, arrays.quality);
+    add_tree(text, measure_quality(arrays.arena.get()));
     const std::vector<Feature> features = features_of(arrays, scene.settings);
     line(text, "models", list_features(features, true));
     line(text, "leaves out", list_features(features, false));

@@ -1,5 +1,6 @@
 #include "cli/print.hpp"
 #include "cli/render_report.hpp"
+#include "scene/bvh_quality.hpp"
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
@@ -91,7 +92,7 @@ std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     add_frame(table, stats);
     add_stage(table, "write", report.write_seconds, "");
     add_rays(table, stats);
-    const BvhQuality& tree = arrays.quality;
+    const BvhQuality tree = measure_quality(arrays.arena.get());
     line(table, "%-14s %s, %u %s, %s, SAH cost %.4g", "tree", counted(tree.nodes, "node").c_str(), tree.leaves,
          tree.leaves == 1 ? "leaf" : "leaves", counted(static_cast<std::size_t>(tree.depth), "level").c_str(), tree.sah_cost);
     line(table, "%-14s scene %s, peak %s", "memory", short_bytes(static_cast<double>(memory_bytes(arrays))).c_str(),

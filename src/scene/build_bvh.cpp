@@ -2,7 +2,6 @@
 
 #include "scene/bvh_binary.hpp"
 #include "scene/bvh_collapse.hpp"
-#include "scene/bvh_quality.hpp"
 #include "scene/error.hpp"
 #include "scene/parallel.hpp"
 #include "scene/scratch.hpp"
@@ -98,15 +97,9 @@ BvhTree build_bvh(BuildRef* refs, std::size_t count, const std::uint32_t* first_
     tree.leaves.resize(wide.size.leaves);
     tree.leaf_first_ref.resize(wide.size.leaves);
 
-    std::vector<std::uint32_t> offsets(wide.size.nodes);
     parallel_for(threads, wide.pieces.size(), [&](std::size_t p) {
-        const WidePiece& piece = wide.pieces[p];
-        for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
-            emit_node({binary, first_slot, tree}, piece, piece.nodes[i]);
-            offsets[piece.begin.nodes + i] = piece.begin.units + piece.nodes[i].offset;
-        }
+        for (const WideNode& node : wide.pieces[p].nodes) emit_node({binary, first_slot, tree}, wide.pieces[p], node);
     });
-    tree.quality = measure_quality(tree.arena.get(), offsets, wide.depth, threads);
     for (int axis = 0; axis < 3; ++axis)
         tree.max_coordinate =
             std::max({tree.max_coordinate, std::abs(binary.nodes[0].lo[axis]), std::abs(binary.nodes[0].hi[axis])});

@@ -1,5 +1,5 @@
 #pragma once
-// Boxes in, eight-wide tree in one arena out. The steps: bvh_binary, bvh_collapse, emission, bvh_quality.
+// Boxes in, eight-wide tree in one arena out. The steps: bvh_binary, bvh_collapse, emission.
 
 #include "scene/aligned_bytes.hpp"
 #include "scene/bvh_binary.hpp"
@@ -19,7 +19,6 @@ struct BvhTree {
     std::vector<std::uint64_t> leaves;         ///< child words, in arena order
     std::vector<std::uint32_t> leaf_first_ref; ///< per leaf: its primitives are the `refs` from here on
     std::vector<std::uint32_t> shared_slots;   ///< with first_here where the triangle has its slot from here
-    BvhQuality quality;
     float max_coordinate = 0;
 };
 

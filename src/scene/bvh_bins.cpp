@@ -18,6 +18,8 @@ struct Bin {
     std::uint32_t count;
 };
 
+using Offsets [[gnu::vector_size(16)]] = std::uint32_t;
+
 /// The first `used` of each axis are empty.
 struct Bins {
     Bin bin[3][max_bins];
@@ -32,11 +34,14 @@ void grow(Bin& bin, Float4 lo, Float4 hi) {
     bin.hi = max4(bin.hi, hi);
 }
 
+/// Where the bins of the three axes lie is computed for all at once.
 void add(Bins& bins, const BuildRef& ref, const BinMapping& mapping) {
+    constexpr std::int32_t bytes = sizeof(Bin);
     const Float4 lo = lo_of(ref), hi = hi_of(ref);
-    const Int4 index = mapping(lo + hi);
+    const Int4 offset = mapping(lo + hi) * bytes;
+    const auto place = reinterpret_cast<Offsets>(offset);
     for (int axis = 0; axis < 3; ++axis) {
-        Bin& own = bins.bin[axis][index[axis]];
+        Bin& own = *reinterpret_cast<Bin*>(reinterpret_cast<unsigned char*>(bins.bin[axis]) + place[axis]);
         grow(own, lo, hi);
         ++own.count;
     }
@@ -67,32 +72,48 @@ void count_into(Bins& bins, const BuildRef* refs, std::uint32_t count, const Bin
     for (; i < count; ++i) add(bins, refs[i], mapping);
 }
 
-/// Cheapest cut of all axes: area times count, summed over both halves.
+Int4 counts_of(const Bins& bins, int b) {
+    return Int4{static_cast<std::int32_t>(bins.bin[0][b].count), static_cast<std::int32_t>(bins.bin[1][b].count),
+                static_cast<std::int32_t>(bins.bin[2][b].count), 0};
+}
+
+/// Cheapest cut of all axes: area times count, summed over both halves. A lane per axis.
 BinCut cheapest(const Bins& bins, std::uint32_t total, int used) {
+    Float4 lo[4], hi[4], right_area[max_bins]; // the fourth box stays empty
+    const auto grow_all = [&](int b) {
+        for (int axis = 0; axis < 3; ++axis) {
+            lo[axis] = min4(lo[axis], bins.bin[axis][b].lo);
+            hi[axis] = max4(hi[axis], bins.bin[axis][b].hi);
+        }
+    };
+    std::fill_n(lo, 4, splat4(empty_lo)), std::fill_n(hi, 4, splat4(-empty_lo));
+    for (int b = used - 1; b > 0; --b) {
+        grow_all(b);
+        right_area[b] = half_areas(lo, hi);
+    }
+    std::fill_n(lo, 4, splat4(empty_lo)), std::fill_n(hi, 4, splat4(-empty_lo));
+    const auto all = static_cast<std::int32_t>(total);
+    Int4 left{}, best_bin{}, best_left{};
+    Float4 best_cost = splat4(std::numeric_limits<float>::infinity());
+    for (int b = 1; b < used; ++b) {
+        grow_all(b - 1);
+        left += counts_of(bins, b - 1);
+        // Of a half without primitives the area is infinite, and the cost so no number, which is never less.
+        const Float4 cost = half_areas(lo, hi) * __builtin_convertvector(left, Float4) +
+                            right_area[b] * __builtin_convertvector(all - left, Float4);
+        const Int4 better = cost < best_cost;
+        best_cost = better ? cost : best_cost;
+        best_bin = better ? Int4{} + b : best_bin;
+        best_left = better ? left : best_left;
+    }
     BinCut best;
-    float best_cost = std::numeric_limits<float>::infinity();
+    best.cost = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-        float right_area[max_bins];
-        Float4 lo = splat4(empty_lo), hi = splat4(-empty_lo);
-        for (int b = used - 1; b > 0; --b) {
-            lo = min4(lo, bins.bin[axis][b].lo);
-            hi = max4(hi, bins.bin[axis][b].hi);
-            right_area[b] = half_area(hi - lo);
-        }
-        lo = splat4(empty_lo), hi = splat4(-empty_lo);
-        std::uint32_t left = 0;
-        for (int b = 1; b < used; ++b) {
-            lo = min4(lo, bins.bin[axis][b - 1].lo);
-            hi = max4(hi, bins.bin[axis][b - 1].hi);
-            left += bins.bin[axis][b - 1].count;
-            if (left == 0) continue;
-            if (left == total) break;
-            const float cost = half_area(hi - lo) * static_cast<float>(left) + right_area[b] * static_cast<float>(total - left);
-            if (cost < best_cost) best_cost = cost, best.axis = axis, best.bin = b, best.left_count = left;
-        }
+        if (!(best_cost[axis] < best.cost)) continue;
+        best.cost = best_cost[axis], best.axis = axis, best.bin = best_bin[axis];
+        best.left_count = static_cast<std::uint32_t>(best_left[axis]);
     }
     if (best.axis < 0) return best;
-    best.cost = best_cost;
     for (int side = 0; side < 2; ++side) {
         best.lo[side] = splat4(empty_lo), best.hi[side] = splat4(-empty_lo);
         for (int b = side == 0 ? 0 : best.bin; b < (side == 0 ? best.bin : used); ++b) {

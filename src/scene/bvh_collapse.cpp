@@ -4,8 +4,6 @@
 #include "scene/error.hpp"
 #include "scene/parallel.hpp"
 
-#include <algorithm>
-
 namespace lanecast {
 namespace {
 
@@ -23,10 +21,10 @@ public:
         : nodes_(tree.nodes.get()), cuts_(cuts), refs_(refs) {}
 
     WideTree run(int threads) {
-        place_top(0, 1, {no_piece, 0});
+        place_top(0, {no_piece, 0});
         parallel_for(threads, tree_.pieces.size(), [&](std::size_t i) {
             WidePiece& piece = tree_.pieces[i];
-            if (piece.nodes.empty()) place(piece, piece.root, piece.level);
+            if (piece.nodes.empty()) place(piece, piece.root);
         });
         join();
         return std::move(tree_);
@@ -34,39 +32,37 @@ public:
 
 private:
     /// The nodes of large subtrees are pieces of their own, between those of their children.
-    void place_top(std::uint32_t root, int level, Above above) {
+    void place_top(std::uint32_t root, Above above) {
         const auto index = static_cast<std::uint32_t>(tree_.pieces.size());
         above_.push_back(above);
         WidePiece& piece = tree_.pieces.emplace_back();
         piece.root = root;
-        piece.level = level;
         if (nodes_[root].count < task_size) return;
-        add_node(piece, root, level);
+        add_node(piece, root);
         const WideNode wide = piece.nodes[0];
         for (std::uint32_t i = 0; i < wide.count; ++i)
-            if ((wide.leaves >> i & 1u) == 0) place_top(wide.child[i], level + 1, {index, i});
+            if ((wide.leaves >> i & 1u) == 0) place_top(wide.child[i], {index, i});
     }
 
     /// A subtree, depth first. Returns the offset.
-    std::uint32_t place(WidePiece& piece, std::uint32_t root, int level) const {
+    std::uint32_t place(WidePiece& piece, std::uint32_t root) const {
         const std::size_t index = piece.nodes.size();
-        add_node(piece, root, level);
+        add_node(piece, root);
         const std::uint32_t count = piece.nodes[index].count, leaves = piece.nodes[index].leaves;
         for (std::uint32_t i = 0; i < count; ++i)
             if ((leaves >> i & 1u) == 0) {
-                const std::uint32_t offset = place(piece, piece.nodes[index].child[i], level + 1);
+                const std::uint32_t offset = place(piece, piece.nodes[index].child[i]);
                 piece.nodes[index].place[i] = offset;
             }
         return piece.nodes[index].offset;
     }
 
     /// The node and its leaves.
-    void add_node(WidePiece& piece, std::uint32_t root, int level) const {
+    void add_node(WidePiece& piece, std::uint32_t root) const {
         WideNode wide{};
         wide.offset = piece.size.units;
         piece.size.units += sizeof(BvhNode) / 64;
         piece.size.nodes += 1;
-        piece.depth = std::max(piece.depth, level);
         if (is_leaf(cuts_[root])) // a single leaf is the only child of its node
             wide.child[wide.count++] = root, wide.leaves = 1;
         else
@@ -115,7 +111,6 @@ private:
             tree_.size.nodes += piece.size.nodes;
             tree_.size.leaves += piece.size.leaves;
             for (int kind = 0; kind < primitive_kind_count; ++kind) tree_.size.references[kind] += piece.size.references[kind];
-            tree_.depth = std::max(tree_.depth, piece.depth);
             if (const Above above = above_[p]; above.piece != no_piece) {
                 WidePiece& parent = tree_.pieces[above.piece]; // comes first, so its begin is known
                 parent.nodes[0].place[above.child] = piece.begin.units - parent.begin.units;

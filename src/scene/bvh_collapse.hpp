@@ -32,14 +32,11 @@ struct WidePiece {
     std::vector<WideNode> nodes;
     WideExtent begin, size;
     std::uint32_t root = 0; ///< binary node
-    int level = 0;          ///< of the root; 1: of the tree
-    int depth = 0;          ///< largest level
 };
 
 struct WideTree {
     std::vector<WidePiece> pieces; ///< in arena order
     WideExtent size;
-    int depth = 0; ///< levels of nodes
 };
 
 inline constexpr std::uint64_t largest_arena = std::uint64_t{1} << 31; ///< bytes: what child_block_shift leaves room for

@@ -1,19 +1,14 @@
 #include "scene/bvh_quality.hpp"
 
-#include "scene/parallel.hpp"
-
 #include <algorithm>
 #include <cstring>
 
 namespace lanecast {
 namespace {
 
-constexpr std::size_t piece = 2048; ///< nodes per partial sum: fixed, so the sum does not depend on the threads
-
-struct Part {
+struct Sums {
     double node_area = 0, test_area = 0;
-    std::uint32_t leaves = 0, overlapping = 0;
-    std::uint32_t leaf_sizes[max_leaf_size + 1] = {};
+    std::uint32_t overlapping = 0;
 };
 
 double half_area(const BvhNode& node, int i) {
@@ -24,24 +19,28 @@ double half_area(const BvhNode& node, int i) {
 
 bool is_used(const BvhNode& node, int i) { return node.lo[0][i] <= node.hi[0][i]; }
 
-void add(Part& part, const BvhNode& node) {
+const BvhNode& node_at(const unsigned char* arena, std::uint64_t offset) {
+    return *reinterpret_cast<const BvhNode*>(arena + offset * 64);
+}
+
+/// Depth first: at most max_bvh_depth calls deep.
+void add_subtree(const unsigned char* arena, const BvhNode& node, int level, Sums& sums, BvhQuality& quality) {
+    ++quality.nodes;
+    quality.depth = std::max(quality.depth, level);
+    if (children_overlap(node)) ++sums.overlapping;
     for (int i = 0; i < 8; ++i) {
         if (!is_used(node, i)) continue;
         const double area = half_area(node, i);
         if ((node.child[i] & child_is_leaf) == 0) {
-            part.node_area += area;
+            sums.node_area += area;
+            add_subtree(arena, node_at(arena, node.child[i]), level + 1, sums, quality);
             continue;
         }
         const auto count = static_cast<std::uint32_t>(node.child[i] >> child_count_shift & child_count_mask) + 1;
-        part.test_area += area * count;
-        ++part.leaves;
-        ++part.leaf_sizes[count];
+        sums.test_area += area * count;
+        ++quality.leaves;
+        ++quality.leaf_sizes[count];
     }
-    if (children_overlap(node)) ++part.overlapping;
-}
-
-const BvhNode& node_at(const unsigned char* arena, std::uint32_t offset) {
-    return *reinterpret_cast<const BvhNode*>(arena + std::size_t{offset} * 64);
 }
 
 double root_area(const BvhNode& root) {
@@ -79,28 +78,15 @@ bool children_overlap(const BvhNode& node) {
     return false;
 }
 
-BvhQuality measure_quality(const unsigned char* arena, const std::vector<std::uint32_t>& node_offsets, int depth, int threads) {
+BvhQuality measure_quality(const unsigned char* arena) {
     BvhQuality quality;
-    quality.nodes = static_cast<std::uint32_t>(node_offsets.size());
-    quality.depth = depth;
-    if (node_offsets.empty()) return quality;
-    std::vector<Part> parts(piece_count(node_offsets.size(), piece));
-    parallel_for(threads, parts.size(), [&](std::size_t p) {
-        for (std::size_t i = p * piece; i < std::min(node_offsets.size(), (p + 1) * piece); ++i)
-            add(parts[p], node_at(arena, node_offsets[i]));
-    });
-    const double whole = root_area(node_at(arena, 0));
-    double node_area = whole, test_area = 0;
-    std::uint32_t overlapping = 0;
-    for (const Part& part : parts) {
-        node_area += part.node_area;
-        test_area += part.test_area;
-        overlapping += part.overlapping;
-        quality.leaves += part.leaves;
-        for (int i = 0; i <= max_leaf_size; ++i) quality.leaf_sizes[i] += part.leaf_sizes[i];
-    }
-    quality.sah_cost = whole > 0 ? (node_area + test_area) / whole : 0;
-    quality.overlapping_share = static_cast<double>(overlapping) / static_cast<double>(node_offsets.size());
+    if (arena == nullptr) return quality;
+    const BvhNode& root = node_at(arena, 0);
+    Sums sums;
+    add_subtree(arena, root, 1, sums, quality);
+    const double whole = root_area(root);
+    quality.sah_cost = whole > 0 ? (whole + sums.node_area + sums.test_area) / whole : 0;
+    quality.overlapping_share = static_cast<double>(sums.overlapping) / quality.nodes;
     return quality;
 }
 

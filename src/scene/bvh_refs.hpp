@@ -39,6 +39,16 @@ using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 /// Half the surface of a box with these edges.
 [[nodiscard]] inline float half_area(Float4 edges) noexcept { return edges[0] * (edges[1] + edges[2]) + edges[1] * edges[2]; }
 
+/// Of four boxes at once.
+[[nodiscard]] inline Float4 half_areas(const Float4 lo[4], const Float4 hi[4]) noexcept {
+    const Float4 a = hi[0] - lo[0], b = hi[1] - lo[1], c = hi[2] - lo[2], d = hi[3] - lo[3];
+    const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Float4 x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    const Float4 z =
+        __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 6, 3, 7), __builtin_shufflevector(c, d, 2, 6, 3, 7), 0, 1, 4, 5);
+    return x * (y + z) + y * z;
+}
+
 inline constexpr float empty_lo = 1e30f; ///< lower corner of an empty box; the upper one is the negative
 
 /// Primitives that lie together, with what a split needs to know of them.

@@ -42,26 +42,30 @@ std::vector<DoubleBox> bounds_of(const FlatObjects& objects, int threads) {
     return boxes;
 }
 
+/// Moves what lies between the places `gaps` together, in its order; returns how many are left.
+std::size_t close_gaps(BuildRef* refs, std::size_t count, const std::vector<std::uint32_t>& gaps) {
+    BuildRef* end = refs + (gaps.empty() ? count : gaps[0]);
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+        end = std::copy(refs + gaps[i] + 1, refs + (i + 1 < gaps.size() ? gaps[i + 1] : count), end);
+    return static_cast<std::size_t>(end - refs);
+}
+
 Bounded bake(const FlatObjects& objects, bool spatial, SceneArrays& arrays, int threads) {
     Bounded bounded;
     bounded.capacity =
         spatial ? objects.refs + static_cast<std::size_t>(static_cast<double>(objects.refs) * spatial_budget) : objects.refs;
     bounded.vertices = bake_vertices(objects, arrays.normalisation, threads);
     bounded.refs = make_scratch<BuildRef>(bounded.capacity);
-    arrays.degenerate_triangles = add_triangles(objects, bounded.vertices, bounded.refs.get(), threads);
+    const std::vector<std::uint32_t> dropped = add_triangles(objects, bounded.vertices, bounded.refs.get(), threads);
+    arrays.degenerate_triangles = static_cast<std::uint32_t>(dropped.size());
     arrays.normalisation.exact = bounded.vertices.exact;
     for (const FlatObject& flat : objects.objects) {
         if (flat.kind == PrimitiveKind::triangle || flat.kind == PrimitiveKind::plane) continue;
         bounded.refs[flat.first_ref] = add_quadric(flat, arrays.normalisation, bounded.quadrics);
         arrays.normalisation.exact = arrays.normalisation.exact && is_exact_quadric(flat, arrays.normalisation);
     }
-    BuildRef* const begin = bounded.refs.get();
-    BuildRef* end = begin + objects.refs;
-    if (arrays.degenerate_triangles > 0) {
-        arrays.warnings.push_back(dropped_triangles_warning(objects, begin, arrays.degenerate_triangles));
-        end = std::remove_if(begin, end, [](const BuildRef& ref) { return ref.source == dropped_source; });
-    }
-    bounded.count = static_cast<std::size_t>(end - begin);
+    if (!dropped.empty()) arrays.warnings.push_back(dropped_triangles_warning(objects, dropped));
+    bounded.count = close_gaps(bounded.refs.get(), objects.refs, dropped);
     arrays.warnings.insert(arrays.warnings.end(), bounded.quadrics.warnings.begin(), bounded.quadrics.warnings.end());
     return bounded;
 }
@@ -164,6 +168,7 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     const FlatObjects objects = prepare_objects(scene);
     constexpr std::size_t worth_a_thread = 4096; // primitives: below, starting a thread takes longer than the work
     if (objects.refs < worth_a_thread) threads = 1;
+    const Team team(threads);
     const std::vector<DoubleBox> boxes = bounds_of(objects, threads);
     DoubleBox bounds;
     for (const DoubleBox& box : boxes) include(bounds, box);
@@ -188,7 +193,6 @@ SceneArrays flatten(const SceneDescription& scene, const RenderSettings& setting
     arrays.arena = std::move(tree.arena);
     arrays.arena_bytes = tree.arena_bytes;
     arrays.leaves = std::move(tree.leaves);
-    arrays.quality = tree.quality;
     arrays.max_coordinate = tree.max_coordinate;
     arrays.build_seconds = seconds_since(build_start);
 

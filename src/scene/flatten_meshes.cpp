@@ -59,6 +59,19 @@ std::array<std::uint32_t, 3> wound(const Mesh& mesh, bool mirrored, std::uint32_
     return v;
 }
 
+Float4 magnitude(Float4 x) { return max4(x, -x); }
+
+/// True where the cross product of two edges, in float, is larger than its rounding: 4 u (|p| + |q|) and what underflows. False
+/// says nothing. Almost every triangle passes, and is_degenerate is not asked.
+bool surely_has_area(Float4 a, Float4 b, Float4 c) {
+    const Float4 u = b - a, v = c - a;
+    const Float4 u_yzx = __builtin_shufflevector(u, u, 1, 2, 0, 3), u_zxy = __builtin_shufflevector(u, u, 2, 0, 1, 3);
+    const Float4 v_yzx = __builtin_shufflevector(v, v, 1, 2, 0, 3), v_zxy = __builtin_shufflevector(v, v, 2, 0, 1, 3);
+    const Float4 p = u_yzx * v_zxy, q = u_zxy * v_yzx;
+    const Int4 sure = magnitude(p - q) > (magnitude(p) + magnitude(q)) * 0x1p-21f + 0x1p-100f;
+    return (sure[0] | sure[1] | sure[2]) != 0;
+}
+
 } // namespace
 
 std::vector<DoubleBox> mesh_bounds(const FlatObjects& objects, int threads) {
@@ -108,16 +121,15 @@ BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& nor
     return baked;
 }
 
-std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads) {
+std::vector<std::uint32_t> add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads) {
     const std::vector<Piece> pieces = cut_triangles(objects);
-    std::atomic<std::uint32_t> dropped = 0;
+    std::vector<std::vector<std::uint32_t>> degenerate(pieces.size());
     parallel_for(threads, pieces.size(), [&](std::size_t p) {
         const Piece& piece = pieces[p];
         const std::array<float, 4>* const positions = vertices.positions.get() + piece.object->first_vertex;
         BuildRef* const own = refs + piece.object->first_ref;
         const std::uint32_t source =
             piece.object->index << source_object_shift | static_cast<std::uint32_t>(PrimitiveKind::triangle);
-        std::uint32_t piece_dropped = 0;
         for (std::size_t i = piece.begin; i < piece.end; ++i) {
             const auto& triangle = piece.mesh->triangles[i];
             const float *a = positions[triangle[0]].data(), *b = positions[triangle[1]].data(),
@@ -129,12 +141,14 @@ std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& ver
             std::memcpy(ref.hi, &hi, sizeof ref.hi);
             ref.item = static_cast<std::uint32_t>(i);
             ref.source = source;
-            if (is_degenerate(a, b, c)) ref.source = dropped_source, ++piece_dropped;
             own[i] = ref;
+            if (!surely_has_area(va, vb, vc) && is_degenerate(a, b, c))
+                degenerate[p].push_back(static_cast<std::uint32_t>(piece.object->first_ref + i));
         }
-        dropped += piece_dropped;
     });
-    return dropped;
+    std::vector<std::uint32_t> all;
+    for (const auto& own : degenerate) all.insert(all.end(), own.begin(), own.end());
+    return all;
 }
 
 std::array<const float*, 3> corners_of(const FlatObjects& objects, const BakedVertices& vertices, const BuildRef& ref) {

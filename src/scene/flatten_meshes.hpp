@@ -23,10 +23,9 @@ struct BakedVertices {
 
 [[nodiscard]] BakedVertices bake_vertices(const FlatObjects& objects, const Normalisation& normalisation, int threads);
 
-/// Writes the references of all triangles, at FlatObject::first_ref, and returns how many are degenerate: those have
-/// source == dropped_source.
-[[nodiscard]] std::uint32_t add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs, int threads);
-inline constexpr std::uint32_t dropped_source = 0xffffffffu;
+/// Writes the references of all triangles, at FlatObject::first_ref, and returns where those of degenerate ones stand, in order.
+[[nodiscard]] std::vector<std::uint32_t> add_triangles(const FlatObjects& objects, const BakedVertices& vertices, BuildRef* refs,
+                                                       int threads);
 
 /// Corners in their order in the file.
 [[nodiscard]] std::array<const float*, 3> corners_of(const FlatObjects& objects, const BakedVertices& vertices,

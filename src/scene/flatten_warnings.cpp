@@ -51,13 +51,13 @@ std::optional<std::string> fine_object_warning(const FlatObjects& objects, const
     return label(*smallest) + text + label(*farthest) + " reaches; expect rough edges and shadows";
 }
 
-std::string dropped_triangles_warning(const FlatObjects& objects, const BuildRef* refs, std::uint32_t dropped) {
+std::string dropped_triangles_warning(const FlatObjects& objects, const std::vector<std::uint32_t>& dropped) {
     const auto in = [&](const FlatObject& flat) {
         const auto* mesh = std::get_if<Mesh>(&flat.object->shape);
-        const BuildRef* const own = refs + flat.first_ref;
-        return mesh ? std::count_if(own, own + mesh->triangles.size(),
-                                    [](const BuildRef& ref) { return ref.source == dropped_source; })
-                    : 0;
+        if (mesh == nullptr) return std::ptrdiff_t{0};
+        const auto end = static_cast<std::uint32_t>(flat.first_ref + mesh->triangles.size());
+        return std::lower_bound(dropped.begin(), dropped.end(), end) -
+               std::lower_bound(dropped.begin(), dropped.end(), flat.first_ref);
     };
     std::string first;
     std::ptrdiff_t in_first = 0, meshes = 0;
@@ -68,8 +68,8 @@ std::string dropped_triangles_warning(const FlatObjects& objects, const BuildRef
     const auto triangles = [](std::ptrdiff_t n) {
         return std::to_string(n) + (n == 1 ? " degenerate triangle was dropped" : " degenerate triangles were dropped");
     };
-    if (meshes == 1) return first + ": " + triangles(dropped);
-    return first + ": " + triangles(in_first) + " (" + std::to_string(dropped) + " in all, in " + std::to_string(meshes) +
+    if (meshes == 1) return first + ": " + triangles(in_first);
+    return first + ": " + triangles(in_first) + " (" + std::to_string(dropped.size()) + " in all, in " + std::to_string(meshes) +
            " meshes)";
 }
 

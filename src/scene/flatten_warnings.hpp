@@ -21,7 +21,7 @@ inline constexpr double fewest_steps = 256;
 [[nodiscard]] std::optional<std::string> fine_object_warning(const FlatObjects& objects, const std::vector<DoubleBox>& boxes,
                                                              const Normalisation& normalisation);
 
-/// Names the first mesh. `refs`: of all bounded primitives in file order, `dropped` > 0 of them with source == dropped_source.
-[[nodiscard]] std::string dropped_triangles_warning(const FlatObjects& objects, const BuildRef* refs, std::uint32_t dropped);
+/// Names the first mesh. `dropped`: some places, in order, counted over the bounded primitives in file order.
+[[nodiscard]] std::string dropped_triangles_warning(const FlatObjects& objects, const std::vector<std::uint32_t>& dropped);
 
 } // namespace lanecast

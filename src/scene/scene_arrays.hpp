@@ -14,16 +14,6 @@
 
 namespace lanecast {
 
-/// What `info` reports of the tree.
-struct BvhQuality {
-    std::uint32_t nodes = 0;
-    std::uint32_t leaves = 0;
-    int depth = 0;       ///< levels of nodes; 0 without a tree
-    double sah_cost = 0; ///< expected node visits + primitive tests of a random ray that enters the root
-    std::uint32_t leaf_sizes[max_leaf_size + 1] = {}; ///< leaves by number of primitives
-    double overlapping_share = 0; ///< of nodes in which two children share more than half of the smaller one's box
-};
-
 /// p_normalised = (p_world - centre) * scale; scale is a power of two.
 struct Normalisation {
     glm::dvec3 centre{0};
@@ -55,7 +45,6 @@ struct SceneArrays {
     Normalisation normalisation;
     glm::dvec3 bounds_min{0}, bounds_max{0}; ///< of the bounded geometry, in world units; min > max when there is none
     std::uint32_t degenerate_triangles = 0;  ///< dropped
-    BvhQuality quality;
     std::vector<std::string> warnings; ///< dropped triangles, ill-conditioned transforms, objects too small for the float grid
     double bake_seconds = 0;           ///< transforms, records
     double build_seconds = 0;          ///< the tree

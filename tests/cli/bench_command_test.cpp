@@ -67,11 +67,23 @@ TEST_CASE("frames and calls") {
     CHECK(calls.out.find("nanoseconds per ray") != std::string::npos);
 }
 
+TEST_CASE("building trees: a line per size, tree and number of threads") {
+    const Outcome outcome = run({"bench", "terrain", "--builds", "--triangles", "200,5000", "--bvh", "default,quality",
+                                 "--threads", "1,2", "--isa", "scalar", "--repetitions", "2"},
+                                {.seconds = 120});
+    CHECK(outcome.code == 0);
+    CHECK(lines_with(outcome.out, "B/tri") >= 1);
+    CHECK(lines_with(outcome.out, "\nterrain                200 ") == 4);
+    CHECK(lines_with(outcome.out, "\nterrain               5000 ") == 4);
+}
+
 TEST_CASE("what cannot be measured is refused") {
     CHECK(run({"bench"}).code == 2);
     CHECK(run({"bench", "teapot"}).code == 2);
     CHECK(run({"bench", "/nowhere/mesh.ply"}).code == 4);
     CHECK(run({"bench", gem, "--isa", "neon"}).code == 2);
+    CHECK(run({"bench", gem, "--builds", "--isa", "neon"}).code == 2);
+    CHECK(run({"bench", gem, "--builds", "--triangles", "1"}).code == 2);
     CHECK(run({"bench", gem, "--kinds", "gamma"}).code == 2);
     CHECK(run({"bench", gem, "--repetitions", "0"}).code == 2);
     CHECK(run({"bench", gem, "--threads", "0"}).code == 2);

@@ -56,6 +56,16 @@ private:
     const RaySet* set_ = nullptr;
 };
 
+TEST_CASE("a terrain of any size") {
+    for (const std::size_t triangles : {2, 1000, 10000, 100000}) {
+        const BenchMesh mesh = make_mesh("terrain", triangles);
+        CHECK(static_cast<double>(mesh.triangles()) == doctest::Approx(static_cast<double>(triangles)).epsilon(0.04));
+        CHECK(mesh.lo.x == -2);
+        CHECK(mesh.hi.x == 2);
+        CHECK(mesh.hi.y < 1.5);
+    }
+}
+
 TEST_CASE("procedural meshes: about as many triangles as promised, and hardly any degenerate") {
     const struct {
         const char* name;

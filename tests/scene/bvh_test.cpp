@@ -26,10 +26,12 @@ Object triangles_in_cube(Random& random, int count, double size) {
     return make_object(triangle_mesh(triangles));
 }
 
+BvhQuality quality_of(const SceneArrays& arrays) { return measure_quality(arrays.arena.get()); }
+
 /// Primitives in leaves, those that stand in several counted each time.
 std::uint32_t references(const SceneArrays& arrays) {
     std::uint32_t sum = 0;
-    for (std::uint32_t n = 1; n <= max_leaf_size; ++n) sum += n * arrays.quality.leaf_sizes[n];
+    for (std::uint32_t n = 1; n <= max_leaf_size; ++n) sum += n * quality_of(arrays).leaf_sizes[n];
     return sum;
 }
 
@@ -55,8 +57,8 @@ TEST_CASE("a hundred thousand random triangles, within the memory promised") {
     const SceneArrays arrays = flatten(scene, scene.render, 2);
     CHECK(check_tree(arrays) == "");
     CHECK(memory_bytes(arrays) < 100 * 100000);
-    CHECK(arrays.quality.depth < 14);
-    CHECK(arrays.quality.sah_cost < 110);
+    CHECK(quality_of(arrays).depth < 14);
+    CHECK(quality_of(arrays).sah_cost < 110);
 }
 
 TEST_CASE("a tenth of a million equal spheres, and one primitive, and none") {
@@ -65,12 +67,12 @@ TEST_CASE("a tenth of a million equal spheres, and one primitive, and none") {
     scene.objects.push_back(sphere_at({1, 2, 3}, 0.5));
     const SceneArrays one = flatten(scene, scene.render, 1);
     CHECK(check_tree(one) == "");
-    CHECK(one.quality.nodes == 1);
-    CHECK(one.quality.leaves == 1);
+    CHECK(quality_of(one).nodes == 1);
+    CHECK(quality_of(one).leaves == 1);
     for (int i = 1; i < 100000; ++i) scene.objects.push_back(scene.objects[0]);
     const SceneArrays many = flatten(scene, scene.render, 2);
     CHECK(check_tree(many) == "");
-    CHECK(many.quality.depth <= 17);
+    CHECK(quality_of(many).depth <= 17);
 }
 
 TEST_CASE("the same bytes for one to four threads") {
@@ -112,7 +114,7 @@ TEST_CASE("spatial splits: every point of a triangle in some leaf, the same byte
     CHECK(references(one) > one.first_slot[4] + 500);
     for (int threads = 2; threads <= 4; ++threads) CHECK(difference(one, flatten(scene, scene.render, threads)) == "");
     scene.render.bvh = BvhMode::standard;
-    CHECK(one.quality.sah_cost < 0.98 * flatten(scene, scene.render, 2).quality.sah_cost);
+    CHECK(quality_of(one).sah_cost < 0.98 * quality_of(flatten(scene, scene.render, 2)).sah_cost);
 }
 
 TEST_CASE("parts of a chopped triangle: within the reference, with every point of it") {
@@ -184,7 +186,7 @@ TEST_CASE("depth is bounded where the area heuristic alone goes deeper") {
     CHECK(std::count(seen.begin(), seen.end(), 1) == static_cast<std::ptrdiff_t>(refs.size()));
 
     const std::uint32_t first_slot[primitive_kind_count + 1] = {0, 360, 360, 360, 360, 360, 360, 360};
-    CHECK(build_bvh(refs.data(), refs.size(), first_slot, nullptr, 1).quality.depth <= max_bvh_depth);
+    CHECK(measure_quality(build_bvh(refs.data(), refs.size(), first_slot, nullptr, 1).arena.get()).depth <= max_bvh_depth);
 }
 
 TEST_CASE("nodes have several children even where areas underflow") {
@@ -199,22 +201,22 @@ TEST_CASE("nodes have several children even where areas underflow") {
     const SceneArrays arrays = flatten(scene, {}, 1);
     CHECK(check_tree(arrays) == "");
     CHECK(arrays.triangles.size() == 3001);
-    CHECK(arrays.quality.nodes < 500);
+    CHECK(quality_of(arrays).nodes < 500);
 }
 
 TEST_CASE("leaves: up to eight of one kind where splitting does not pay, never two kinds") {
     SceneDescription scene;
     for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({0, 0, 0}, 1));
-    CHECK(flatten(scene, {}, 1).quality.leaf_sizes[8] == 1);
+    CHECK(quality_of(flatten(scene, {}, 1)).leaf_sizes[8] == 1);
     scene.objects.push_back(sphere_at({0, 0, 0}, 1));
-    CHECK(flatten(scene, {}, 1).quality.leaves == 2);
+    CHECK(quality_of(flatten(scene, {}, 1)).leaves == 2);
 
     scene.objects.clear();
     for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({300.0 * i, 0, 0}, 1)); // clearly apart
-    CHECK(flatten(scene, {}, 1).quality.leaf_sizes[1] == 8);
+    CHECK(quality_of(flatten(scene, {}, 1)).leaf_sizes[1] == 8);
     scene.objects.clear();
     for (int i = 0; i < 8; ++i) scene.objects.push_back(sphere_at({0.1 * i, 0, 0}, 1)); // hardly
-    CHECK(flatten(scene, {}, 1).quality.leaves == 1);
+    CHECK(quality_of(flatten(scene, {}, 1)).leaves == 1);
 
     for (const int each : {4, 40}) { // small ranges and binned ones
         scene.objects.clear();
@@ -224,8 +226,8 @@ TEST_CASE("leaves: up to eight of one kind where splitting does not pay, never t
         }
         const SceneArrays mixed = flatten(scene, {}, 1);
         CHECK(check_tree(mixed) == "");
-        if (each == 4) CHECK(mixed.quality.leaves == 2);
-        CHECK(mixed.quality.leaves <= static_cast<std::uint32_t>(each));
+        if (each == 4) CHECK(quality_of(mixed).leaves == 2);
+        CHECK(quality_of(mixed).leaves <= static_cast<std::uint32_t>(each));
     }
 }
 
@@ -233,14 +235,14 @@ TEST_CASE("quality of trees made by hand") {
     SceneDescription scene;
     scene.objects.push_back(sphere_at({0, 0, 0}, 1));
     const SceneArrays one = flatten(scene, scene.render, 1);
-    CHECK(one.quality.sah_cost == doctest::Approx(2)); // one node, one test
-    CHECK(one.quality.overlapping_share == 0);
-    CHECK(one.quality.leaf_sizes[1] == 1);
+    CHECK(quality_of(one).sah_cost == doctest::Approx(2)); // one node, one test
+    CHECK(quality_of(one).overlapping_share == 0);
+    CHECK(quality_of(one).leaf_sizes[1] == 1);
 
     scene.objects.push_back(sphere_at({98, 0, 0}, 1)); // boxes of edge 2 in one of 100 x 2 x 2
     const SceneArrays two = flatten(scene, scene.render, 1);
-    CHECK(two.quality.leaves == 2);
-    CHECK(two.quality.sah_cost == doctest::Approx(1 + 2 * 12.0 / 404).epsilon(1e-3));
+    CHECK(quality_of(two).leaves == 2);
+    CHECK(quality_of(two).sah_cost == doctest::Approx(1 + 2 * 12.0 / 404).epsilon(1e-3));
 
     BvhNode node{};
     for (int i = 0; i < 8; ++i)

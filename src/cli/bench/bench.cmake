@@ -3,6 +3,7 @@ target_sources(lanecast PRIVATE
   cli/bench/agreement.cpp
   cli/bench/bench.cpp
   cli/bench/bench_mesh.cpp
+  cli/bench/builds.cpp
   cli/bench/calls.cpp
   cli/bench/drawing.cpp
   cli/bench/frames.cpp
@@ -26,7 +27,9 @@ if(LANECAST_EMBREE)
   endif()
 endif()
 if(LANECAST_EMBREE AND embree_FOUND)
-  add_library(lanecast_embree MODULE cli/bench/embree.cpp)
+  add_library(lanecast_embree MODULE
+    cli/bench/embree.cpp
+    cli/bench/embree_build.cpp)
   target_compile_definitions(lanecast_embree PRIVATE LANECAST_EMBREE_MAJOR=${EMBREE_VERSION_MAJOR})
   target_include_directories(lanecast_embree PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(lanecast_embree PRIVATE embree lanecast_flags glm::glm)

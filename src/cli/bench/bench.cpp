@@ -1,5 +1,6 @@
 // lanecast bench: rays per second, beside Embree where it was found.
 
+#include "cli/bench/builds.hpp"
 #include "cli/bench/calls.hpp"
 #include "cli/bench/frames.hpp"
 #include "cli/bench/report.hpp"
@@ -30,6 +31,8 @@ struct BenchRequest {
     bool no_ground = false;
     bool no_peer = false;
     bool calls = false;
+    bool builds = false;
+    std::vector<std::size_t> triangles; ///< of terrain
     std::vector<std::string> kinds, isas, precisions{"balanced"}, trees{"default"};
     std::vector<int> threads{1};
     std::size_t rays = 262144;
@@ -40,8 +43,8 @@ struct BenchRequest {
     std::string options; ///< as given
 };
 
-BenchMesh prepare_mesh(const BenchRequest& request) {
-    BenchMesh mesh = make_mesh(request.mesh);
+BenchMesh prepare_mesh(const BenchRequest& request, std::size_t triangles) {
+    BenchMesh mesh = make_mesh(request.mesh, triangles);
     if (!request.camera.empty()) {
         const auto& c = request.camera;
         view_from(mesh, {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c.size() > 6 ? c[6] : 60,
@@ -109,6 +112,26 @@ constexpr const char* compiler = "clang++ " __clang_version__;
 constexpr const char* compiler = "g++ " __VERSION__;
 #endif
 
+/// A line per size, tree, instruction set and number of threads.
+void measure_builds(const BenchRequest& request, const std::vector<std::string>& isas) {
+    for (const std::string& isa : isas) static_cast<void>(find_kernels(isa, Precision::balanced)); // refuses what is not there
+    bool header = true;
+    for (const std::size_t triangles : request.triangles.empty() ? std::vector{usual_terrain} : request.triangles) {
+        const BenchMesh mesh = make_mesh(request.mesh, triangles);
+        for (const std::string& tree : request.trees)
+            for (const std::string& isa : isas)
+                for (const int threads : request.threads) {
+                    BuildsRequest builds;
+                    builds.threads = threads;
+                    builds.repetitions = request.repetitions;
+                    builds.high = tree == "quality";
+                    builds.with_peer = !request.no_peer;
+                    print_result(measure_builds(mesh, isa, builds, header));
+                    header = false;
+                }
+    }
+}
+
 int run(const BenchRequest& request) {
     if (!request.frames.empty()) {
         FramesRequest frames;
@@ -119,8 +142,12 @@ int run(const BenchRequest& request) {
         return static_cast<int>(ExitCode::done);
     }
     if (request.mesh.empty()) throw Error(ExitCode::usage, "bench: needs a mesh, or --frames and a scene");
-    const BenchMesh mesh = prepare_mesh(request);
     const std::vector<std::string> isas = request.isas.empty() ? all_isas() : request.isas;
+    if (request.builds) {
+        measure_builds(request, isas);
+        return static_cast<int>(ExitCode::done);
+    }
+    const BenchMesh mesh = prepare_mesh(request, request.triangles.empty() ? usual_terrain : request.triangles.front());
     const int threads = *std::max_element(request.threads.begin(), request.threads.end());
     if (request.calls) {
         for (const std::string& isa : isas) print_result(measure_calls(mesh, isa, request.repetitions));
@@ -177,6 +204,11 @@ void add_bench(CLI::App& app, Command& chosen) {
     command->add_flag("--no-ground", request->no_ground, "No square under a mesh seen from outside");
     command->add_flag("--no-peer", request->no_peer, "Without Embree");
     command->add_flag("--calls", request->calls, "What a call costs, in streams of 1 to 65536 rays, instead");
+    command->add_flag("--builds", request->builds, "Building the tree, in turn with Embree, instead");
+    command->add_option("--triangles", request->triangles, "Of terrain, about; several with --builds; default: 1048352")
+        ->delimiter(',')
+        ->check(CLI::Range(std::size_t{2}, std::size_t{1} << 25))
+        ->type_name("LIST");
     command->add_option("--kinds", request->kinds, "Rays: primary, aa, shadow, light, sun, mirror, diffuse; default: all")
         ->delimiter(',')
         ->check(CLI::IsMember(ray_kinds()))

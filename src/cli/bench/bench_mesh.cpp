@@ -42,12 +42,12 @@ BenchMesh read_mesh(const std::string& file) {
 
 } // namespace
 
-BenchMesh make_mesh(const std::string& what) {
+BenchMesh make_mesh(const std::string& what, std::size_t triangles) {
     BenchMesh mesh;
     if (what == "flake")
         mesh = make_flake();
     else if (what == "terrain")
-        mesh = make_terrain();
+        mesh = make_terrain(triangles);
     else if (what == "hall")
         mesh = make_hall();
     else

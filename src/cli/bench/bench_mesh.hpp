@@ -32,8 +32,10 @@ struct BenchMesh {
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// `what`: flake, terrain, hall, or an OBJ or PLY file. Throws Error.
-[[nodiscard]] BenchMesh make_mesh(const std::string& what);
+inline constexpr std::size_t usual_terrain = 1048352; ///< triangles
+
+/// `what`: flake, terrain, hall, or an OBJ or PLY file. `triangles`, about: of terrain. Throws Error.
+[[nodiscard]] BenchMesh make_mesh(const std::string& what, std::size_t triangles = usual_terrain);
 
 /// A view of the whole bounding box from outside, the mesh standing on a square of two triangles if `ground`.
 void view_from_outside(BenchMesh& mesh, bool ground);
@@ -42,8 +44,8 @@ void view_from(BenchMesh& mesh, const glm::dvec3& position, const glm::dvec3& lo
                const glm::dvec3& up = {0, 1, 0});
 
 // procedural.cpp
-[[nodiscard]] BenchMesh make_flake();   ///< a sphereflake, 1.03 million triangles
-[[nodiscard]] BenchMesh make_terrain(); ///< a fractal, 1.05 million
-[[nodiscard]] BenchMesh make_hall();    ///< colonnades around a court, half a million; seen from inside
+[[nodiscard]] BenchMesh make_flake();                        ///< a sphereflake, 1.03 million triangles
+[[nodiscard]] BenchMesh make_terrain(std::size_t triangles); ///< a fractal, of about as many
+[[nodiscard]] BenchMesh make_hall();                         ///< colonnades around a court, half a million; seen from inside
 
 } // namespace lanecast::bench

@@ -3,6 +3,7 @@
 #include "cli/bench/bench_mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -134,14 +135,16 @@ BenchMesh make_flake() {
     return mesh;
 }
 
-BenchMesh make_terrain() {
+BenchMesh make_terrain(std::size_t triangles) {
     BenchMesh mesh;
     mesh.name = "terrain";
-    constexpr std::uint32_t size = 724; // 2 * 724^2 triangles
+    const auto size =
+        static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(std::max<std::size_t>(triangles, 2)) / 2)));
+    const std::uint32_t largest_hills = std::bit_floor(std::max(size * 3 / 8, 1u)); // the same shape at every size
     add_grid(mesh, size, size, [&](std::uint32_t i, std::uint32_t j) {
         double height = 0;
         double amplitude = 0.35;
-        for (std::uint32_t period = 256; period >= 1; period /= 2, amplitude *= 0.52) {
+        for (std::uint32_t period = largest_hills; period >= 1; period /= 2, amplitude *= 0.52) {
             const std::uint32_t x = i / period, y = j / period;
             const double fx = static_cast<double>(i % period) / period, fy = static_cast<double>(j % period) / period;
             const double sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
