@@ -40,6 +40,11 @@ LANECAST_INLINE float reduce_max(VectorFloat a) {
 LANECAST_INLINE VectorFloat gather(const float* p, VectorInt i) { return _mm256_i32gather_ps(p, i.r, 4); }
 LANECAST_INLINE VectorInt gather(const std::int32_t* p, VectorInt i) { return _mm256_i32gather_epi32(p, i.r, 4); }
 
+#if LANECAST_FAST
+LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) { return _mm256_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE VectorFloat fused_less(VectorFloat c, VectorFloat a, VectorFloat b) { return _mm256_fnmadd_ps(a.r, b.r, c.r); }
+#endif
+
 struct Doubles {
     __m256d lo, hi;
 };

@@ -49,6 +49,11 @@ LANECAST_INLINE VectorInt compress(VectorInt a, VectorMask m) { return _mm512_ma
 LANECAST_INLINE VectorFloat expand(VectorFloat a, VectorMask m) { return _mm512_maskz_expand_ps(m.r, a.r); }
 LANECAST_INLINE VectorInt expand(VectorInt a, VectorMask m) { return _mm512_maskz_expand_epi32(m.r, a.r); }
 
+#if LANECAST_FAST
+LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) { return _mm512_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE VectorFloat fused_less(VectorFloat c, VectorFloat a, VectorFloat b) { return _mm512_fnmadd_ps(a.r, b.r, c.r); }
+#endif
+
 struct Doubles {
     __m512d lo, hi;
 };
@@ -81,6 +86,10 @@ struct EightFloat {
     LANECAST_INLINE friend EightMask operator<=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_LE_OQ); }
     LANECAST_INLINE friend EightMask operator>=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GE_OQ); }
 };
+#if LANECAST_FAST
+LANECAST_INLINE EightFloat fused(EightFloat a, EightFloat b, EightFloat c) { return _mm256_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE EightFloat fused_less(EightFloat c, EightFloat a, EightFloat b) { return _mm256_fnmadd_ps(a.r, b.r, c.r); }
+#endif
 LANECAST_INLINE EightFloat min(EightFloat a, EightFloat b) { return _mm256_min_ps(a.r, b.r); }
 LANECAST_INLINE EightFloat max(EightFloat a, EightFloat b) { return _mm256_max_ps(a.r, b.r); }
 LANECAST_INLINE void store(float* p, EightFloat a) { _mm256_storeu_ps(p, a.r); }
