@@ -63,7 +63,8 @@ void for_each_fast_shot(Body&& body) {
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) {
         if (tables.empty()) return;
         const KernelTable& kernels = *tables[n++ % tables.size()];
-        CAPTURE(kernels.isa);
+        const std::string fast_on = kernels.isa;
+        CAPTURE(fast_on);
         body(kernels, scene, shot);
     });
 }

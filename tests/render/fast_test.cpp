@@ -129,7 +129,8 @@ TEST_CASE("fast: tree, batch and neighbours change no bit of a ray's answer") {
         std::shuffle(order.begin(), order.end(), random.engine);
         order.resize(1 + order.size() / static_cast<std::size_t>(1 + random.below(40)));
         for (const KernelTable* kernels : fast_kernels()) {
-            CAPTURE(kernels->isa);
+            const std::string isa = kernels->isa;
+            CAPTURE(isa);
             const Hits alone = ask(*kernels, view(arrays), rays, Ask::closest, true);
             const Hits tree = ask(*kernels, view(arrays), rays, Ask::closest);
             const Hits few = ask(*kernels, view(arrays), picked(rays, order), Ask::closest);
