@@ -1,12 +1,16 @@
-# lanecast_isa_test(<name> LABELS <label>... SOURCES <file>...)
+# lanecast_isa_test(<name> [FAST] LABELS <label>... SOURCES <file>...)
 # One source, compiled for every ISA of the build with its kernels' flags and LANECAST_ISA=<namespace>, each into an executable of its own, so that
-# nothing is shared. Tests are named <name>_<namespace>; those the CPU cannot run say so and pass.
+# nothing is shared; with FAST also for the kernels of that precision. Tests are named <name>_<namespace>; those the CPU cannot run say so and pass.
 add_executable(run_on_isa run_on_isa.cpp)
 target_link_libraries(run_on_isa PRIVATE lanecast::lanecast lanecast_flags)
 
 function(lanecast_isa_test name)
-  cmake_parse_arguments(arg "" "" "LABELS;SOURCES" ${ARGN})
-  foreach(isa IN LISTS lanecast_isas)
+  cmake_parse_arguments(arg "FAST" "" "LABELS;SOURCES" ${ARGN})
+  set(isas ${lanecast_isas})
+  if(arg_FAST)
+    list(APPEND isas ${lanecast_fast_isas})
+  endif()
+  foreach(isa IN LISTS isas)
     set(target ${name}_${isa})
     list(GET lanecast_isa_${isa} 0 isa_name)
     add_executable(${target} ${arg_SOURCES} $<TARGET_OBJECTS:test_main>)

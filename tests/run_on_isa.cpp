@@ -9,9 +9,8 @@
 
 int main(int argc, char** argv) {
     if (argc < 3) return 2;
-    const std::string_view name = std::string_view(argv[1]) == "reference" ? "scalar" : argv[1];
     for (const lanecast::IsaInfo& isa : lanecast::known_isas()) {
-        if (isa.name == name && isa.supported) {
+        if (isa.name == argv[1] && isa.supported) {
             execv(argv[2], argv + 2);
             std::perror(argv[2]);
             return 1;

@@ -2,7 +2,8 @@
 # Looks into the object files for code that would run on a CPU that cannot run it, or give other bits there:
 #   tools/check_isa_objects.sh build/release/isa_objects.txt
 # The manifest has lines `<namespace or baseline> <object file>`. Kernels must keep every symbol the linker may merge inside
-# their own namespace, initialise nothing at start, and contain only instructions of their ISA and no fused multiply-add.
+# their own namespace, initialise nothing at start, and contain only instructions of their ISA and no fused multiply-add, but
+# in namespaces that end in _fast.
 # Prints one line per finding; exit status 1 if there is one.
 set -euo pipefail
 manifest=${1:?usage: check_isa_objects.sh <manifest>}
@@ -25,6 +26,8 @@ forbidden() {
     baseline | scalar | reference) echo "$vex|$lzcnt|$sse4|$sse3|$fma" ;;
     sse42) echo "$vex|$lzcnt|$fma" ;;
     avx2) echo "$avx512|$lzcnt|$fma" ;;
+    avx2_fast) echo "$avx512|$lzcnt" ;;
+    avx512_fast) echo "$lzcnt" ;;
     *) echo "$lzcnt|$fma" ;;
     esac
 }
@@ -50,7 +53,8 @@ while read -r isa object; do
     [ "$isa" = baseline ] && { defined "$object" | awk '$1 ~ /[VWu]/ {print $2}' | sort -u >>"$work/baseline.weak"; continue; }
 
     # The linker keeps one of the copies of a weak symbol, so those of an ISA must carry its name; so must all that is global.
-    defined "$object" | awk '$1 ~ /[VWu]/ {print $2}' | sort -u >>"$work/$isa.weak"
+    # Two precisions of one ISA may share what is not ours: the flags are the same.
+    defined "$object" | awk '$1 ~ /[VWu]/ {print $2}' | sort -u >>"$work/${isa%_fast}.weak"
     # Our namespace, or what xsimd instantiates for exactly one architecture, where a debug build does not inline it; no two
     # ISAs share one of those either, see below.
     while read -r type name; do

@@ -43,14 +43,23 @@ void add_normalisation(JsonWriter& json, const SceneArrays& arrays) {
     json.close_object();
 }
 
-void add_instruction_sets(JsonWriter& json) {
+void add_instruction_sets(JsonWriter& json, Precision precision) {
     json.open_list("instruction_sets");
     for (const IsaInfo& isa : known_isas()) {
         json.open_object();
         json.add("name", isa.name);
         json.add("compiled", isa.compiled);
         json.add("supported", isa.supported);
-        json.add("used", isa.name == best_isa());
+        json.add("used", isa.name == best_isa(precision));
+        json.close_object();
+    }
+    json.close_list();
+    json.open_list("precisions");
+    for (const Precision one : {Precision::fast, Precision::balanced, Precision::reference}) {
+        json.open_object();
+        json.add("name", std::string(name_of(one)));
+        json.add("compiled", !best_isa(one).empty());
+        json.add("used", one == precision);
         json.close_object();
     }
     json.close_list();
@@ -86,7 +95,7 @@ std::string info_json(const RequestedScene& scene, const SceneArrays& arrays) {
     for (const Feature& feature : features_of(arrays, scene.settings)) json.add(feature.name, feature.used);
     json.close_object();
     add_normalisation(json, arrays);
-    add_instruction_sets(json);
+    add_instruction_sets(json, scene.settings.precision);
     json.open_list("warnings");
     for (const std::string& warning : scene.warnings) json.add("", warning);
     json.close_list();

@@ -46,14 +46,23 @@ std::string list_features(const std::vector<Feature>& features, bool used) {
     return names.empty() ? "nothing" : names;
 }
 
-std::string instruction_sets() {
+std::string instruction_sets(Precision precision) {
     std::string text;
     for (const IsaInfo& isa : known_isas()) {
-        const char* state = !isa.compiled            ? "not in this build"
-                            : !isa.supported         ? "not on this CPU"
-                            : isa.name == best_isa() ? "used"
-                                                     : "";
+        const char* state = !isa.compiled                     ? "not in this build"
+                            : !isa.supported                  ? "not on this CPU"
+                            : isa.name == best_isa(precision) ? "used"
+                                                              : "";
         text += (text.empty() ? "" : ", ") + isa.name + (*state == 0 ? "" : std::string(" (") + state + ")");
+    }
+    return text;
+}
+
+std::string precisions(Precision used) {
+    std::string text;
+    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference}) {
+        const char* state = best_isa(precision).empty() ? " (not in this build)" : precision == used ? " (used)" : "";
+        text += (text.empty() ? "" : ", ") + std::string(name_of(precision)) + state;
     }
     return text;
 }
@@ -104,7 +113,8 @@ std::string info_text(const RequestedScene& scene, const SceneArrays& arrays) {
          "centre " + point(n.centre) + ", scale 2^" + std::to_string(std::ilogb(n.scale)) +
              (n.exact ? ", exact" : ", centring rounded coordinates"));
     line(text, "float grid", number(grid_spacing(arrays)) + " scene units at the farthest point");
-    line(text, "instruction sets", instruction_sets());
+    line(text, "instruction sets", instruction_sets(scene.settings.precision));
+    line(text, "precisions", precisions(scene.settings.precision));
     line(text, "warnings", std::to_string(scene.warnings.size()));
     return text;
 }

@@ -27,12 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Precision precision_of(const std::string& name) {
-    if (name == "balanced") return Precision::balanced;
-    if (name == "reference") return Precision::reference;
-    throw Error(ExitCode::usage, "precision '" + name + "' does not exist; expected balanced or reference");
-}
-
 BvhMode bvh_of(const std::string& name) {
     if (name == "default") return BvhMode::standard;
     if (name == "quality") return BvhMode::quality;
@@ -55,7 +49,7 @@ std::vector<StreamObject> number_objects(const SceneDescription& description) {
 template <class Data>
 std::unique_ptr<Data> build(const SceneDescription& description, const BuildOptions& options, Clock::time_point begin) {
     auto data = std::make_unique<Data>();
-    data->kernels = &find_kernels(options.isa, precision_of(options.precision));
+    data->kernels = &find_kernels(options.isa, precision_named(options.precision));
     RenderSettings settings = description.render;
     settings.bvh = bvh_of(options.bvh);
     data->arrays = flatten(description, settings, options.threads > 0 ? options.threads : default_thread_count());

@@ -42,9 +42,8 @@ struct KnownIsa {
 constexpr KnownIsa known[] = {{"scalar", always}, {"sse4.2", has_sse42}, {"avx2", has_avx2}, {"avx512", has_avx512}};
 
 const KernelTable* compiled_table(std::string_view isa, Precision precision) {
-    const std::uint32_t reference = precision == Precision::reference ? 1 : 0;
     const auto* found = std::find_if(std::begin(tables), std::end(tables), [&](const KernelTable* table) {
-        return table->isa == isa && table->reference == reference;
+        return table->isa == isa && table->precision == precision;
     });
     return found == std::end(tables) ? nullptr : *found;
 }
@@ -66,30 +65,49 @@ std::vector<IsaInfo> known_isas() {
     std::vector<IsaInfo> isas;
     for (const KnownIsa& isa : known) {
         const KernelTable* table = compiled_table(isa.name, Precision::balanced);
-        isas.push_back({std::string(isa.name), table ? table->width : 0, table != nullptr, isa.supported()});
+        isas.push_back({std::string(isa.name), table ? table->width : 0, table != nullptr,
+                        compiled_table(isa.name, Precision::fast) != nullptr, isa.supported()});
     }
     return isas;
 }
 
-std::string_view best_isa() {
-    const auto best = std::find_if(std::rbegin(known), std::rend(known), [](const KnownIsa& isa) {
-        return compiled_table(isa.name, Precision::balanced) && isa.supported();
-    });
-    return best->name; // scalar at the latest
+const char* name_of(Precision precision) {
+    constexpr const char* names[] = {"fast", "balanced", "reference"};
+    return names[static_cast<std::size_t>(precision)];
+}
+
+Precision precision_named(std::string_view name) {
+    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference})
+        if (name == name_of(precision)) return precision;
+    throw Error(ExitCode::usage, "precision '" + std::string(name) + "' does not exist; expected fast, balanced or reference");
+}
+
+std::string_view best_isa(Precision precision) {
+    const auto best = std::find_if(std::rbegin(known), std::rend(known),
+                                   [&](const KnownIsa& isa) { return compiled_table(isa.name, precision) && isa.supported(); });
+    return best == std::rend(known) ? "" : best->name;
 }
 
 const KernelTable& find_kernels(std::string_view isa, Precision precision) {
-    if (isa == "auto") isa = precision == Precision::reference ? "scalar" : best_isa();
+    const std::string named = "precision '" + std::string(name_of(precision)) + "'";
+    if (isa == "auto") {
+        isa = best_isa(precision);
+        if (isa.empty())
+            throw Error(ExitCode::isa, "this build has no kernels of " + named + " that this CPU runs; it needs avx2 or avx512");
+    }
     const auto* entry = std::find_if(std::begin(known), std::end(known), [&](const KnownIsa& k) { return k.name == isa; });
     const std::string quoted = "instruction set '" + std::string(isa) + "'";
     if (entry == std::end(known)) {
         throw Error(ExitCode::usage, quoted + " does not exist; expected auto, scalar, sse4.2, avx2 or avx512");
     }
-    if (precision == Precision::reference && isa != "scalar") {
-        throw Error(ExitCode::usage, "precision 'reference' is computed by 'scalar' only, not by " + quoted);
-    }
+    if (precision == Precision::reference && isa != "scalar")
+        throw Error(ExitCode::usage, named + " is computed by 'scalar' only, not by " + quoted);
+    if (precision == Precision::fast && isa != "avx2" && isa != "avx512")
+        throw Error(ExitCode::usage, named + " needs fused multiply-add: 'avx2' or 'avx512', not " + quoted);
     if (!entry->supported()) throw Error(ExitCode::isa, "this CPU lacks " + quoted + "; it can run " + usable_names());
     const KernelTable* table = compiled_table(isa, precision);
+    if (!table && compiled_table(isa, Precision::balanced))
+        throw Error(ExitCode::isa, "this build lacks " + named + " for " + quoted);
     if (!table) throw Error(ExitCode::isa, "this build lacks " + quoted + "; it holds " + usable_names());
     return *table;
 }

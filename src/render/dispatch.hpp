@@ -14,18 +14,25 @@ struct IsaInfo {
     std::string name;       ///< "scalar", "sse4.2", "avx2", "avx512"
     int width = 0;          ///< rays per vector; 0 when the build lacks it
     bool compiled = false;  ///< in this build
+    bool fast = false;      ///< and its kernels of precision `fast`, too
     bool supported = false; ///< by this CPU and its operating system
 };
 
 /// Every instruction set Lanecast knows, slowest first.
 [[nodiscard]] std::vector<IsaInfo> known_isas();
 
-/// The fastest one that this build holds and this CPU runs.
-[[nodiscard]] std::string_view best_isa();
+/// "fast", "balanced", "reference"
+[[nodiscard]] const char* name_of(Precision precision);
+/// Throws Error, ExitCode::usage.
+[[nodiscard]] Precision precision_named(std::string_view name);
 
-/// The kernels of `isa`, a name as above or "auto". Precision::reference is scalar, so there "auto" and "scalar" are the
-/// same and any other name is a usage error. Throws Error: ExitCode::usage for a name that does not exist, ExitCode::isa where
-/// the CPU or this build lacks it. The table is static.
+/// The fastest one whose kernels of that precision this build holds and this CPU runs; "" where there is none, which happens to
+/// `fast` only.
+[[nodiscard]] std::string_view best_isa(Precision precision = Precision::balanced);
+
+/// The kernels of `isa`, a name as above or "auto". `reference` is scalar only, `fast` avx2 and avx512 only: other pairs
+/// are usage errors. Throws Error: ExitCode::usage for those and for a name that does not exist, ExitCode::isa where the CPU or
+/// this build lacks it. The table is static.
 [[nodiscard]] const KernelTable& find_kernels(std::string_view isa, Precision precision);
 
 } // namespace lanecast

@@ -1,6 +1,7 @@
 #pragma once
 // BOUNDARY: what baseline code may ask of the per-ISA code. Plain data, no function bodies.
 
+#include "scene/precision.hpp"
 #include "scene/scene_view.hpp"
 
 #include <cstdint>
@@ -141,9 +142,9 @@ inline constexpr std::uint32_t no_object = 0xffffffffu;
 
 /// The doors of one instruction set and precision.
 struct KernelTable {
-    const char* isa;                                           ///< "scalar", "sse4.2", "avx2", "avx512"
-    std::int32_t width;                                        ///< rays per vector
-    std::uint32_t reference;                                   ///< 1: computes in double
+    const char* isa;    ///< "scalar", "sse4.2", "avx2", "avx512"
+    std::int32_t width; ///< rays per vector
+    Precision precision;
     std::uint64_t (*scratch_bytes)(const RenderJob&) noexcept; ///< what render_tile needs, 64-byte aligned; touched as used
     TileStats (*render_tile)(const RenderJob&, Tile, void* scratch) noexcept;
     void (*closest_hit)(const SceneView&, const RayStream&) noexcept;

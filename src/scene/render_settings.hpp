@@ -1,11 +1,9 @@
 #pragma once
 // The switches a scene may carry in its `render` block and the command line may override.
 
-namespace lanecast {
+#include "scene/precision.hpp"
 
-/// How numbers are computed, never what is computed. `balanced`: float, IEEE operations only, the same bytes on every
-/// ISA. `reference`: the scalar program in double, the truth that the others are measured against.
-enum class Precision { balanced, reference };
+namespace lanecast {
 
 /// The tree; the picture is the same with each.
 enum class BvhMode {

@@ -22,9 +22,6 @@ LANECAST_INLINE VectorInt shift_left(VectorInt a, int n) { return _mm256_slli_ep
 LANECAST_INLINE VectorInt shift_right(VectorInt a, int n) { return _mm256_srai_epi32(a.r, n); }
 LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm256_cvtepi32_ps(a.r); }
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm256_cvttps_epi32(a.r); }
-LANECAST_INLINE VectorFloat multiply_subtract(VectorFloat a, VectorFloat b, VectorFloat c) {
-    return _mm256_fmsub_ps(a.r, b.r, c.r);
-}
 LANECAST_INLINE VectorFloat evens(VectorFloat a, VectorFloat b) {
     return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(_mm256_shuffle_ps(a.r, b.r, 0x88)), 0xd8));
 }
@@ -48,6 +45,11 @@ LANECAST_INLINE float reduce_max(VectorFloat a) {
 }
 LANECAST_INLINE VectorFloat gather(const float* p, VectorInt i) { return _mm256_i32gather_ps(p, i.r, 4); }
 LANECAST_INLINE VectorInt gather(const std::int32_t* p, VectorInt i) { return _mm256_i32gather_epi32(p, i.r, 4); }
+
+#if LANECAST_FAST
+LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) { return _mm256_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE VectorFloat fused_less(VectorFloat c, VectorFloat a, VectorFloat b) { return _mm256_fnmadd_ps(a.r, b.r, c.r); }
+#endif
 
 struct Doubles {
     __m256d lo, hi;

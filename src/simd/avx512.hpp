@@ -34,9 +34,6 @@ LANECAST_INLINE VectorInt shift_left(VectorInt a, int n) { return _mm512_slli_ep
 LANECAST_INLINE VectorInt shift_right(VectorInt a, int n) { return _mm512_srai_epi32(a.r, static_cast<unsigned>(n)); }
 LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm512_cvtepi32_ps(a.r); }
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm512_cvttps_epi32(a.r); }
-LANECAST_INLINE VectorFloat multiply_subtract(VectorFloat a, VectorFloat b, VectorFloat c) {
-    return _mm512_fmsub_ps(a.r, b.r, c.r);
-}
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm512_sqrt_ps(a.r); }
 LANECAST_INLINE VectorFloat load_vector(const float* p) { return _mm512_loadu_ps(p); }
 LANECAST_INLINE VectorInt load_vector(const std::int32_t* p) { return _mm512_loadu_si512(p); }
@@ -59,6 +56,11 @@ LANECAST_INLINE VectorFloat compress(VectorFloat a, VectorMask m) { return _mm51
 LANECAST_INLINE VectorInt compress(VectorInt a, VectorMask m) { return _mm512_maskz_compress_epi32(m.r, a.r); }
 LANECAST_INLINE VectorFloat expand(VectorFloat a, VectorMask m) { return _mm512_maskz_expand_ps(m.r, a.r); }
 LANECAST_INLINE VectorInt expand(VectorInt a, VectorMask m) { return _mm512_maskz_expand_epi32(m.r, a.r); }
+
+#if LANECAST_FAST
+LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) { return _mm512_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE VectorFloat fused_less(VectorFloat c, VectorFloat a, VectorFloat b) { return _mm512_fnmadd_ps(a.r, b.r, c.r); }
+#endif
 
 struct Doubles {
     __m512d lo, hi;
@@ -94,9 +96,12 @@ struct EightFloat {
     LANECAST_INLINE friend EightMask operator<=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_LE_OQ); }
     LANECAST_INLINE friend EightMask operator>=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GE_OQ); }
 };
+#if LANECAST_FAST
+LANECAST_INLINE EightFloat fused(EightFloat a, EightFloat b, EightFloat c) { return _mm256_fmadd_ps(a.r, b.r, c.r); }
+LANECAST_INLINE EightFloat fused_less(EightFloat c, EightFloat a, EightFloat b) { return _mm256_fnmadd_ps(a.r, b.r, c.r); }
+#endif
 LANECAST_INLINE EightFloat min(EightFloat a, EightFloat b) { return _mm256_min_ps(a.r, b.r); }
 LANECAST_INLINE EightFloat max(EightFloat a, EightFloat b) { return _mm256_max_ps(a.r, b.r); }
-LANECAST_INLINE EightFloat multiply_subtract(EightFloat a, EightFloat b, EightFloat c) { return _mm256_fmsub_ps(a.r, b.r, c.r); }
 LANECAST_INLINE EightFloat abs(EightFloat a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.r); }
 LANECAST_INLINE EightFloat copysign(EightFloat magnitude, EightFloat sign) {
     return _mm256_or_ps(abs(magnitude).r, _mm256_and_ps(_mm256_set1_ps(-0.0f), sign.r));

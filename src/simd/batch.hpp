@@ -64,9 +64,11 @@ LANECAST_INLINE VectorFloat copysign(VectorFloat magnitude, VectorFloat sign) {
     const VectorFloat::Batch sign_bit(-0.0f);
     return VectorFloat::Register((VectorFloat::Batch(magnitude.r) & ~sign_bit) | (VectorFloat::Batch(sign.r) & sign_bit));
 }
+#if !LANECAST_FAST
 LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) {
     return to_float(to_double(a) * to_double(b) + to_double(c));
 }
+#endif
 LANECAST_INLINE VectorFloat sum_of_squares_less(VectorFloat a, VectorFloat b, VectorFloat c, VectorFloat d) {
     const Doubles x = to_double(a), y = to_double(b), z = to_double(c), w = to_double(d);
     return to_float(x * x + y * y + z * z - w * w);

@@ -60,16 +60,18 @@ template <ScalarBatch T>
 LANECAST_INLINE T copysign(T magnitude, T sign) {
     return std::copysign(magnitude, sign);
 }
-/// a * b + c with the product exact: fused on every ISA without the FMA instruction (docs/numerics.md).
+/// a * b + c with the product exact: fused on every ISA without the FMA instruction (docs/numerics.md), but in `fast`.
 LANECAST_INLINE float fused(float a, float b, float c) {
+#if LANECAST_FAST
+    return __builtin_fmaf(a, b, c);
+#else
     return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) + static_cast<double>(c));
+#endif
 }
 LANECAST_INLINE double fused(double a, double b, double c) { return a * b + c; }
-/// a * b - c, rounded once where the ISA has the instruction and twice elsewhere: for bounds only.
-template <ScalarBatch T>
-LANECAST_INLINE T multiply_subtract(T a, T b, T c) {
-    return a * b - c;
-}
+#if LANECAST_FAST
+LANECAST_INLINE float fused_less(float c, float a, float b) { return __builtin_fmaf(-a, b, c); }
+#endif
 /// a2 + b2 + c2 - d2 computed in double and rounded once.
 LANECAST_INLINE float sum_of_squares_less(float a, float b, float c, float d) {
     const double x = static_cast<double>(a), y = static_cast<double>(b), z = static_cast<double>(c), w = static_cast<double>(d);

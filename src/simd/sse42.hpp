@@ -22,7 +22,6 @@ LANECAST_INLINE VectorInt shift_left(VectorInt a, int n) { return _mm_slli_epi32
 LANECAST_INLINE VectorInt shift_right(VectorInt a, int n) { return _mm_srai_epi32(a.r, n); }
 LANECAST_INLINE VectorFloat to_float(VectorInt a) { return _mm_cvtepi32_ps(a.r); }
 LANECAST_INLINE VectorInt to_int(VectorFloat a) { return _mm_cvttps_epi32(a.r); }
-LANECAST_INLINE VectorFloat multiply_subtract(VectorFloat a, VectorFloat b, VectorFloat c) { return a * b - c; }
 LANECAST_INLINE VectorFloat evens(VectorFloat a, VectorFloat b) { return _mm_shuffle_ps(a.r, b.r, 0x88); }
 LANECAST_INLINE VectorFloat odds(VectorFloat a, VectorFloat b) { return _mm_shuffle_ps(a.r, b.r, 0xdd); }
 LANECAST_INLINE VectorFloat sqrt(VectorFloat a) { return _mm_sqrt_ps(a.r); }

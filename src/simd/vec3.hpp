@@ -1,7 +1,7 @@
 #pragma once
 // Three batches: points, directions, colours.
 
-#include "simd/batch.hpp"
+#include "simd/arithmetic.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
 
@@ -18,7 +18,7 @@ struct Vec3 {
 
 template <FloatBatch F>
 LANECAST_INLINE F dot(const Vec3<F>& a, const Vec3<F>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 template <FloatBatch F>
 LANECAST_INLINE Vec3<F> abs(const Vec3<F>& a) {

@@ -12,12 +12,12 @@ namespace {
 
 const std::filesystem::path here = small_scene().parent_path();
 
-/// Without the line that depends on the machine and the build.
+/// Without the lines that depend on the machine and the build.
 std::string portable(const std::string& text) {
     std::istringstream lines(text);
     std::string out;
     for (std::string line; std::getline(lines, line);)
-        if (!line.starts_with("instruction sets")) out += line + "\n";
+        if (!line.starts_with("instruction sets") && !line.starts_with("precisions")) out += line + "\n";
     return out;
 }
 
@@ -47,6 +47,11 @@ TEST_CASE("info: the text") {
     CHECK(outcome.err.empty());
     CHECK(contains(outcome.out, "instruction sets scalar"));
     CHECK(contains(outcome.out, "(used)"));
+    CHECK(contains(outcome.out, "\nprecisions       fast"));
+    CHECK(contains(outcome.out, ", balanced (used), reference\n"));
+    const Outcome reference = run({"info", "small.json", "--quiet", "--precision", "reference"}, {.directory = here});
+    CHECK(contains(reference.out, "instruction sets scalar (used)"));
+    CHECK(contains(reference.out, ", balanced, reference (used)\n"));
     CHECK(portable(outcome.out) == content_of(here / "small.info.txt"));
 }
 

@@ -263,7 +263,8 @@ TEST_CASE("fused: the product is exact, the sum rounded to double and then to th
             const auto da = static_cast<double>(a[i]), db = static_cast<double>(b[i]), dc = static_cast<double>(c[i]);
             const auto dd = static_cast<double>(d[i]);
             CHECK(static_cast<__float128>(da) * static_cast<__float128>(db) == static_cast<__float128>(da * db));
-            wrong += canonical(r[i]) != canonical(static_cast<S>(da * db + dc));
+            const S rounded = is_fast ? std::fma(a[i], b[i], c[i]) : static_cast<S>(da * db + dc);
+            wrong += canonical(r[i]) != canonical(rounded);
             wrong += canonical(s[i]) != canonical(static_cast<S>(da * da + db * db + dc * dc - dd * dd));
             // against exact arithmetic: half an ulp, and the second rounding's
             const auto exact = static_cast<double>(static_cast<__float128>(da) * db + dc);
@@ -277,6 +278,31 @@ TEST_CASE("fused: the product is exact, the sum rounded to double and then to th
     CHECK(wrong == 0);
     CHECK(unlike_fma <= 2); // double rounding: about once in 2^29
     if constexpr (sizeof(S) == 4) CHECK(unlike_plain > static_cast<std::uint64_t>(rounds) * W / 4);
+}
+
+TEST_CASE("multiply_add and less_product: rounded once in fast, twice elsewhere, in every lane") {
+    Lottery random(12);
+    std::uint64_t wrong = 0, unlike = 0;
+    const int rounds = cases(100000) / W;
+    for (int n = 0; n < rounds; ++n) {
+        Lanes a{}, b{}, c{};
+        for (int i = 0; i < W; ++i) {
+            a.v[i] = static_cast<S>(static_cast<float>(random.uniform(-2, 2)));
+            b.v[i] = static_cast<S>(static_cast<float>(random.uniform(-2, 2)));
+            c.v[i] = static_cast<S>(static_cast<float>(random.uniform(-2, 2)));
+        }
+        const Lanes sum = lanes_of(multiply_add(load(a), load(b), load(c)));
+        const Lanes difference = lanes_of(less_product(load(c), load(a), load(b)));
+        for (int i = 0; i < W; ++i) {
+            const S twice = a[i] * b[i] + c[i], less_twice = c[i] - a[i] * b[i];
+            const S once = std::fma(a[i], b[i], c[i]), less_once = std::fma(-a[i], b[i], c[i]);
+            wrong += sum[i] != (is_fast ? once : twice);
+            wrong += difference[i] != (is_fast ? less_once : less_twice);
+            unlike += once != twice;
+        }
+    }
+    CHECK(wrong == 0);
+    if constexpr (sizeof(S) == 4) CHECK(unlike > 0);
 }
 
 TEST_CASE("compress_store packs the lanes of a mask, expand_load brings them back") {

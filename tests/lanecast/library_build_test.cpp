@@ -118,6 +118,19 @@ TEST_CASE("the reference answers in double") {
     CHECK(shoot(scene, {0.25f, 0.25f, 9}, {0, 0, -1}).t == 5);
 }
 
+TEST_CASE("fast answers where there is fused multiply-add, and is refused by name elsewhere") {
+    const auto scene_on = [](const char* isa) { return Scene({corners, 6, triangles, 2}, {.isa = isa, .precision = "fast"}); };
+    CHECK(fault([&] { scene_on("sse4.2"); }).find("precision 'fast'") != std::string::npos);
+    const std::string refused = fault([&] { scene_on("auto"); });
+    if (!refused.empty()) {
+        CHECK(refused.find("precision 'fast'") != std::string::npos);
+        return;
+    }
+    const Scene scene = scene_on("auto");
+    CHECK((scene.facts().isa == "avx2" || scene.facts().isa == "avx512"));
+    CHECK(shoot(scene, {0.25f, 0.25f, 9}, {0, 0, -1}).t == 5);
+}
+
 TEST_CASE("a mesh from a file") {
     const TemporaryFile file(".obj", "v 0 0 3\nv 1 0 3\nv 0 1 3\nf 1 2 3\n");
     const Scene scene(file.path);

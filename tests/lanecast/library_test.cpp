@@ -315,6 +315,44 @@ TEST_CASE("rays that are none hit nothing and disturb no neighbour") {
     }
 }
 
+TEST_CASE("shadows of coherent rays do not depend on what hid the light before") {
+    Random random(27);
+    for (int round = 0; round < rounds; ++round) {
+        // a roof of few large triangles with holes, leaves of all sizes under it, and a floor of rays to a lamp or the sun
+        TestMesh mesh = random_mesh(random, 200, 0.6);
+        for (int i = 0; i < 6; ++i)
+            for (int corner = 0; corner < 3; ++corner) {
+                mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size() / mesh.floats));
+                for (std::size_t k = 0; k < mesh.floats; ++k)
+                    mesh.positions.push_back(k == 1 ? 1.5f : static_cast<float>(random.uniform(-2, 2)));
+            }
+        const bool lamp = round % 2 == 0;
+        const glm::dvec3 light = glm::dvec3(random.uniform(-1, 1), 3, random.uniform(-1, 1));
+        TestRays rays(8192);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const glm::dvec3 from(static_cast<double>(i % 128) / 32 - 2, -1, static_cast<double>(i / 128) / 16 - 2);
+            rays.set(i, from, lamp ? light - from : light);
+            if (lamp) rays.tmax[i] = 1;
+        }
+        for (const std::string& isa : isas()) {
+            const Scene scene(mesh.arrays(), {.threads = 1, .isa = isa});
+            TestHits hits(rays.size());
+            std::vector<std::uint8_t> occluded(rays.size(), 9);
+            scene.closest_hit(rays.arrays(), hits.arrays());
+            scene.any_hit(rays.arrays(), occluded.data());
+            std::size_t wrong = 0, dark = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                wrong += (occluded[i] == 1) == (hits.object[i] != no_hit) ? 0 : 1;
+                dark += occluded[i];
+            }
+            CAPTURE(isa);
+            CHECK(wrong == 0);
+            CHECK(dark > rays.size() / 8);
+            CHECK(dark < rays.size());
+        }
+    }
+}
+
 TEST_CASE("callers at the same time") {
     Random random(26);
     const TestMesh mesh = random_mesh(random, 500);

@@ -55,6 +55,19 @@ void for_each_shot(Body&& body) {
             body(scene, Shot{{64, 48, {0, 0, 0, 0}, 1, 32}, settings});
         }
 }
+/// `fast` promises the same but for other instruction sets; they take turns.
+template <class Body>
+void for_each_fast_shot(Body&& body) {
+    const std::vector<const KernelTable*> tables = fast_kernels();
+    std::size_t n = 0;
+    for_each_shot([&](const SceneDescription& scene, const Shot& shot) {
+        if (tables.empty()) return;
+        const KernelTable& kernels = *tables[n++ % tables.size()];
+        const std::string fast_on = kernels.isa;
+        CAPTURE(fast_on);
+        body(kernels, scene, shot);
+    });
+}
 /// The reference is slow and shares the code: the first scene does.
 template <class Body>
 void for_each_reference_shot(Body&& body) {
@@ -88,6 +101,7 @@ TEST_CASE("same bytes with any number of threads") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
+    for_each_fast_shot(check);
 }
 
 TEST_CASE("same bytes with any size of tiles") {
@@ -101,6 +115,7 @@ TEST_CASE("same bytes with any size of tiles") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
+    for_each_fast_shot(check);
 }
 
 TEST_CASE("same bytes in any crop, for every anti-aliasing mode") {
@@ -120,6 +135,8 @@ TEST_CASE("same bytes in any crop, for every anti-aliasing mode") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot, 6); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot, 4); });
+    for_each_fast_shot(
+        [&](const KernelTable& kernels, const SceneDescription& scene, const Shot& shot) { check(kernels, scene, shot, 4); });
 }
 
 TEST_CASE("same bytes without the tree, and with the one of spatial splits") {
@@ -132,6 +149,7 @@ TEST_CASE("same bytes without the tree, and with the one of spatial splits") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
+    for_each_fast_shot(check);
 }
 
 TEST_CASE("same bytes where mirrors and glass are split: no part of a triangle hits its own ray") {

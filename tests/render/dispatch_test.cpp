@@ -36,7 +36,7 @@ TEST_CASE("every instruction set is found where build and CPU have it, and is an
             const KernelTable& table = find_kernels(isa.name, Precision::balanced);
             CHECK(table.isa == isa.name);
             CHECK(table.width == isa.width);
-            CHECK(table.reference == 0);
+            CHECK(table.precision == Precision::balanced);
         } else {
             CHECK(code_of(isa.name, Precision::balanced) == ExitCode::isa);
         }
@@ -57,9 +57,47 @@ TEST_CASE("the reference is scalar, and a table of its own") {
     const KernelTable& table = find_kernels("auto", Precision::reference);
     CHECK(&table == &find_kernels("scalar", Precision::reference));
     CHECK(&table != &find_kernels("scalar", Precision::balanced));
-    CHECK(table.reference == 1);
+    CHECK(table.precision == Precision::reference);
     CHECK(table.width == 1);
     for (const char* isa : {"sse4.2", "avx2", "avx512"}) CHECK(code_of(isa, Precision::reference) == ExitCode::usage);
+}
+
+TEST_CASE("fast is a table of its own where there is fused multiply-add, or the message says what is lacking") {
+    CHECK(code_of("scalar", Precision::fast) == ExitCode::usage);
+    CHECK(code_of("sse4.2", Precision::fast) == ExitCode::usage);
+    bool some = false;
+    for (const IsaInfo& isa : known_isas()) {
+        if (isa.name == "scalar" || isa.name == "sse4.2") continue;
+        CAPTURE(isa.name);
+        if (isa.fast && isa.supported) {
+            const KernelTable& table = find_kernels(isa.name, Precision::fast);
+            CHECK(table.isa == isa.name);
+            CHECK(table.width == isa.width);
+            CHECK(table.precision == Precision::fast);
+            CHECK(&table != &find_kernels(isa.name, Precision::balanced));
+            some = true;
+        } else {
+            CHECK(code_of(isa.name, Precision::fast) == ExitCode::isa);
+        }
+    }
+    CHECK(best_isa(Precision::fast).empty() == !some);
+    if (some) {
+        CHECK(find_kernels("auto", Precision::fast).isa == best_isa(Precision::fast));
+        return;
+    }
+    try {
+        (void)find_kernels("auto", Precision::fast);
+        CHECK(false);
+    } catch (const Error& error) {
+        CHECK(error.code() == ExitCode::isa);
+        CHECK(std::string(error.what()).find("precision 'fast'") != std::string::npos);
+    }
+}
+
+TEST_CASE("precisions have names") {
+    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference})
+        CHECK(precision_named(name_of(precision)) == precision);
+    CHECK_THROWS_AS((void)precision_named("precise"), Error);
 }
 
 TEST_CASE("a name that does not exist is a usage error") {

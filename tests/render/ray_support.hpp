@@ -28,6 +28,13 @@ inline std::vector<const KernelTable*> balanced_kernels() {
         if (isa.compiled && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::balanced));
     return tables;
 }
+/// The fast ones, slowest first; none in a build without them.
+inline std::vector<const KernelTable*> fast_kernels() {
+    std::vector<const KernelTable*> tables;
+    for (const IsaInfo& isa : known_isas())
+        if (isa.fast && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::fast));
+    return tables;
+}
 inline const KernelTable& scalar_kernels() { return find_kernels("scalar", Precision::balanced); }
 inline const KernelTable& reference_kernels() { return find_kernels("auto", Precision::reference); }
 

@@ -8,6 +8,11 @@ lanecast_test(test_determinism LABELS determinism
   render/determinism_test.cpp
   render/render_support.cpp
   scene/geometry_support.cpp)
+lanecast_test(test_fast LABELS unit determinism
+  SOURCES
+  render/fast_test.cpp
+  render/render_support.cpp
+  scene/geometry_support.cpp)
 lanecast_test(test_whitted LABELS unit
   SOURCES
   render/whitted_test.cpp

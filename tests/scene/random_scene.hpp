@@ -135,7 +135,7 @@ public:
         out.soft_shadows = whole(0, 1024);
         out.depth = whole(0, 1024);
         out.cutoff = coin() ? whole(0, 1) : real(0, 1);
-        out.precision = static_cast<Precision>(whole(0, 1));
+        out.precision = static_cast<Precision>(whole(0, 2));
         return out;
     }
 

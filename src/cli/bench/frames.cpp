@@ -74,7 +74,8 @@ std::string measure_frames(const FramesRequest& request) {
     const auto flatten_begin = Clock::now();
     const SceneArrays arrays = flatten(scene, scene.render, request.threads);
     const double flatten_seconds = seconds_since(flatten_begin);
-    const KernelTable& kernels = find_kernels(request.isa, scene.render.precision);
+    const KernelTable& kernels =
+        find_kernels(request.isa, request.precision.empty() ? scene.render.precision : precision_named(request.precision));
     FrameOptions options;
     options.width = request.width;
     options.height = request.height;
@@ -93,8 +94,8 @@ std::string measure_frames(const FramesRequest& request) {
     }
 
     std::string text;
-    line(text, "%s, %dx%d, %s, %d pairs of frames", request.scene.c_str(), request.width, request.height, kernels.isa,
-         request.pairs);
+    line(text, "%s, %dx%d, %s, %s, %d pairs of frames", request.scene.c_str(), request.width, request.height, kernels.isa,
+         name_of(kernels.precision), request.pairs);
     line(text, "  load %s, flatten %s", short_seconds(load_seconds).c_str(), short_seconds(flatten_seconds).c_str());
     add_shares(text, stages);
     line(text, "  frame: one thread %s, %d threads %s", short_seconds(quantile(stages.whole, 0.5)).c_str(), request.threads,

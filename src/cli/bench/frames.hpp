@@ -8,6 +8,7 @@ namespace lanecast::bench {
 struct FramesRequest {
     std::string scene; ///< file
     std::string isa = "auto";
+    std::string precision; ///< empty: the scene's
     int width = 1920, height = 1080;
     int pairs = 15; ///< frames with one thread and with `threads`, in turn
     int threads = 2;

@@ -88,6 +88,7 @@ std::uint32_t queue_shadow_rays(Wavefront<F>& w, const RayQueue<F>& queue, std::
         compress_store_int<F>(l.shadow.source + n, select(inward, source_inward(slot), source_outward(slot)), asked);
         n += count_bits(l.asked[v]);
     }
+    l.shadow.occluders = &l.occluders[light_index];
     l.shadow.tmax = light.kind == LightKind::directional ? no_limit<Scalar<F>> : Scalar<F>(1);
     return n;
 }

@@ -1,4 +1,4 @@
-// One compilation of this file per instruction set, and one in double for the reference (docs/building.md).
+// One compilation of this file per instruction set and precision (docs/building.md).
 
 #include "render/kernels/render_tile.hpp"
 #include "render/kernels/stream.hpp"
@@ -8,6 +8,8 @@ namespace lanecast::inline LANECAST_ISA {
 namespace {
 
 using Float = NativeFloat;
+
+constexpr Precision precision = LANECAST_REFERENCE ? Precision::reference : LANECAST_FAST ? Precision::fast : Precision::balanced;
 
 std::uint64_t scratch_bytes(const RenderJob& job) noexcept {
     TileScratch<Float> scratch;
@@ -25,6 +27,6 @@ void any_hit(const SceneView& scene, const RayStream& rays) noexcept { trace_str
 } // namespace
 
 extern constinit const KernelTable kernels;
-constinit const KernelTable kernels{isa_name, width<Float>, LANECAST_REFERENCE, scratch_bytes, render, closest_hit, any_hit};
+constinit const KernelTable kernels{isa_name, width<Float>, precision, scratch_bytes, render, closest_hit, any_hit};
 
 } // namespace lanecast::inline LANECAST_ISA

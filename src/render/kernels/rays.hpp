@@ -45,6 +45,27 @@ LANECAST_INLINE I source_inward(I slot) {
 template <class S>
 inline constexpr S no_limit = std::numeric_limits<S>::max();
 
+/// Leaves that lately hid a light from many rays, tried first by the packets that follow: any hit will do, so answers are the
+/// same.
+struct Occluders {
+    static constexpr std::uint32_t capacity = 4;
+    std::uint32_t count = 0;
+    std::uint64_t leaf[capacity]; ///< child words; the latest first
+
+    void remember(std::uint64_t child) {
+        std::uint32_t place = 0;
+        while (place < count && leaf[place] != child) ++place;
+        if (place == count && count < capacity) ++count;
+        if (place == capacity) --place;
+        for (; place > 0; --place) leaf[place] = leaf[place - 1];
+        leaf[0] = child;
+    }
+    void forget(std::uint32_t place) {
+        --count;
+        for (; place < count; ++place) leaf[place] = leaf[place + 1];
+    }
+};
+
 /// Up to `capacity` rays, dense, and what tracing them gave. Arrays have a vector of slack.
 template <FloatBatch F>
 struct RayBatch {
@@ -58,6 +79,7 @@ struct RayBatch {
     S tmax;                    ///< and t <= tmax, finite
     const S* tmins;            ///< per ray, or null
     const S* tmaxs;            ///< per ray, or null
+    Occluders* occluders;      ///< or null; of the light that all rays go to
     const std::int32_t* after; ///< per ray, or null: hits at t == tmin count when their scene id is larger than this
 
     void allocate(ScratchLayout& layout, std::uint32_t capacity) {
@@ -72,6 +94,7 @@ struct RayBatch {
         tmins = nullptr;
         tmaxs = nullptr;
         after = nullptr;
+        occluders = nullptr;
     }
 };
 

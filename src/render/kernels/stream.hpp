@@ -129,7 +129,9 @@ void trace_stream(const SceneView& scene, const RayStream& stream) {
     StreamBatch<F> batch; // uninitialised, like the scratch: filled as far as the rays go
     TraceScratch<F> scratch;
     RayKindStats stats{};
-    const RayBatch<F> rays = batch.rays(stream);
+    RayBatch<F> rays = batch.rays(stream);
+    Occluders occluders; // should the rays go to one light; otherwise it is left empty or soon forgotten
+    rays.occluders = &occluders;
     const std::uint32_t chunk = stream.incoherent != 0 ? max_batch_rays : coherent_chunk;
     const std::uint32_t filled = stream.count < chunk ? stream.count : chunk;
     for (std::uint32_t i = 0; i < filled + static_cast<std::uint32_t>(width<F>); ++i) rays.source[i] = no_source;

@@ -111,7 +111,7 @@ void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, boo
             const std::uint32_t segments = detail::gather_packet(scratch, rays, n, static_cast<std::int32_t>(key), vector);
             if (segments == 0) break;
             finish_packet(scratch.packet, static_cast<std::int32_t>(key), scene.max_coordinate);
-            traverse_packet<query>(scene, scratch.packet, brute_force, occupancy);
+            traverse_packet<query>(scene, scratch.packet, rays.occluders, brute_force, occupancy);
             detail::scatter_packet(scratch, rays, segments);
         }
     });

@@ -10,14 +10,14 @@ namespace lanecast::inline LANECAST_ISA {
 template <FloatBatch F>
 LANECAST_INLINE Vec3<F> multiply(const float (&m)[9], const Vec3<F>& v) {
     using S = Scalar<F>;
-    const auto row = [&](int i) { return F(S(m[i])) * v.x + F(S(m[i + 1])) * v.y + F(S(m[i + 2])) * v.z; };
+    const auto row = [&](int i) { return dot<F>({F(S(m[i])), F(S(m[i + 1])), F(S(m[i + 2]))}, v); };
     return {row(0), row(3), row(6)};
 }
 /// transpose(m) * v: with m = object_from_world, a normal's way back to the world (the inverse transpose).
 template <FloatBatch F>
 LANECAST_INLINE Vec3<F> multiply_transposed(const float (&m)[9], const Vec3<F>& v) {
     using S = Scalar<F>;
-    const auto column = [&](int i) { return F(S(m[i])) * v.x + F(S(m[i + 3])) * v.y + F(S(m[i + 6])) * v.z; };
+    const auto column = [&](int i) { return dot<F>({F(S(m[i])), F(S(m[i + 3])), F(S(m[i + 6]))}, v); };
     return {column(0), column(1), column(2)};
 }
 /// |m| * v for v >= 0: how far errors of v can reach.

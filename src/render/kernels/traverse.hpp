@@ -98,10 +98,50 @@ LANECAST_INLINE void update_t_max(Packet<F>& packet) {
     packet.t_max = reduce_max(t_max);
 }
 
+/// Rays whose question is still open.
+template <FloatBatch F>
+LANECAST_INLINE std::uint32_t count_open(const Packet<F>& packet) {
+    std::uint32_t rays = 0;
+    for (int vector = 0; vector < packet.vectors; ++vector)
+        rays += count_bits(bits(load<F>(packet.t + static_cast<std::uint32_t>(vector) * width<F>) >= F(0)));
+    return rays;
+}
+
+/// Tries what hid the light from the packets before. A leaf that now answers fewer than one ray in sixteen is forgotten.
+template <FloatBatch F>
+void try_occluders(const SceneView& scene, Packet<F>& packet, Occluders& occluders, std::uint32_t& open) {
+    for (std::uint32_t k = 0; k < occluders.count && open > 0;) {
+        hit_leaf<Query::any>(scene, packet, (1u << packet.vectors) - 1u, occluders.leaf[k]);
+        const std::uint32_t before = open;
+        open = count_open(packet);
+        if ((before - open) * 16 < packet.count)
+            occluders.forget(k);
+        else
+            ++k;
+    }
+    update_t_max(packet);
+}
+
+/// Remembers a leaf that has just answered a quarter of the rays. Measured, AVX-512: San Miguel, rays to a directional light 2.2
+/// times as many, to a point light 1.9; Sponza 1.1 to 1.3; others 1.0.
+template <FloatBatch F>
+LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders, std::uint64_t leaf, std::uint32_t changed,
+                                   std::uint32_t& open) {
+    if (packet.count < 32 || count_bits(changed) * 4 < static_cast<std::uint32_t>(packet.vectors)) return;
+    const std::uint32_t before = open;
+    open = count_open(packet);
+    if ((before - open) * 4 >= packet.count) occluders.remember(leaf);
+}
+
 /// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
 template <Query query, FloatBatch F>
-std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
+std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders* occluders) {
     std::uint32_t last = (1u << packet.vectors) - 1u;
+    std::uint32_t open = packet.count;
+    if (query == Query::any && occluders != nullptr && occluders->count > 0) {
+        try_occluders(scene, packet, *occluders, open);
+        if (packet.t_max < Scalar<F>(0)) return last;
+    }
     const bool from_far = far_first<query>(packet.common_origin);
     StackEntry<F> stack[stack_capacity];
     int top = 0;
@@ -117,6 +157,8 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
                                                                : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
             if (changed != 0) {
                 update_t_max(packet);
+                if (query == Query::any && occluders != nullptr && leaf)
+                    note_occluder(packet, *occluders, entry.child, changed, open);
                 if (query == Query::any && packet.t_max < Scalar<F>(0)) break;
             }
             continue;
@@ -139,7 +181,7 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet) {
 }
 
 template <Query query, FloatBatch F>
-void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force, Occupancy& occupancy) {
+void traverse_packet(const SceneView& scene, Packet<F>& packet, Occluders* occluders, bool brute_force, Occupancy& occupancy) {
     occupancy.first_lanes += static_cast<std::uint64_t>(packet.vectors) * width<F>;
     occupancy.first_active += packet.count;
     hit_planes<query>(scene, packet);
@@ -148,7 +190,7 @@ void traverse_packet(const SceneView& scene, Packet<F>& packet, bool brute_force
     if (scene.leaf_count != 0 && brute_force) {
         for (std::uint32_t leaf = 0; leaf < scene.leaf_count; ++leaf) hit_leaf<query>(scene, packet, last, scene.leaves[leaf]);
     } else if (scene.leaf_count != 0 && packet.t_max >= Scalar<F>(0)) {
-        last = traverse_tree<query>(scene, packet);
+        last = traverse_tree<query>(scene, packet, occluders);
     }
     for_each_bit(last, [&](std::uint32_t vector) {
         const std::uint32_t i = vector * width<F>;

@@ -11,7 +11,7 @@ inline constexpr int stack_capacity = 7 * max_bvh_depth + 1;
 template <FloatBatch F>
 struct SingleRay {
     using S = Scalar<F>;
-    S org[3], dir[3], near_offset[3], far_offset[3], rcp[3], shear[3];
+    S org[3], dir[3], org_near[3], org_far[3], rcp[3], shear[3];
     S tmin, t;
     std::int32_t slot, source, after;
 
@@ -20,9 +20,9 @@ struct SingleRay {
         for (int axis = 0; axis < 3; ++axis) {
             org[axis] = packet.org[axis][i];
             dir[axis] = packet.dir[axis][i];
+            org_near[axis] = packet.org_near[axis][i];
+            org_far[axis] = packet.org_far[axis][i];
             rcp[axis] = packet.rcp[axis][i];
-            near_offset[axis] = packet.org_near[axis][i] * rcp[axis];
-            far_offset[axis] = packet.org_far[axis][i] * rcp[axis];
             shear[axis] = packet.shear[axis][i];
         }
     }
@@ -148,10 +148,10 @@ bool traverse_single(const SceneView& scene, SingleRay<F>& ray, const Packet<F>&
     int top = 0;
     stack[top++] = {root, 0};
     using E = Eight<F>;
-    E near_offset[3], far_offset[3], rcp[3];
+    E org_near[3], org_far[3], rcp[3];
     for (int axis = 0; axis < 3; ++axis) {
-        near_offset[axis] = E(ray.near_offset[axis]);
-        far_offset[axis] = E(ray.far_offset[axis]);
+        org_near[axis] = E(ray.org_near[axis]);
+        org_far[axis] = E(ray.org_far[axis]);
         rcp[axis] = E(ray.rcp[axis]);
     }
     alignas(64) S near[16];
@@ -171,8 +171,8 @@ bool traverse_single(const SceneView& scene, SingleRay<F>& ray, const Packet<F>&
             for (int axis = 0; axis < 3; ++axis) {
                 const E near_plane = load_eight<E>((negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
                 const E far_plane = load_eight<E>((negative[axis] ? node.lo[axis] : node.hi[axis]) + c);
-                enter = max(multiply_subtract(near_plane, rcp[axis], near_offset[axis]), enter);
-                leave = min(multiply_subtract(far_plane, rcp[axis], far_offset[axis]), leave);
+                enter = max((near_plane - org_near[axis]) * rcp[axis], enter);
+                leave = min((far_plane - org_far[axis]) * rcp[axis], leave);
             }
             store(near + c, enter);
             entered |= bits(enter <= leave) << c;

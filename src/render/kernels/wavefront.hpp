@@ -102,6 +102,7 @@ struct LightBatch {
     std::uint32_t* lit;   ///< lanes that face the light and lie in its cone
     std::uint32_t* asked; ///< lanes with a shadow ray, of the sample in hand
     RayBatch<F> shadow;
+    Occluders* occluders; ///< of each light
     // shadow rays on their way through transmissive objects
     S* through[3];
     S* after_t;
@@ -117,6 +118,8 @@ struct LightBatch {
         lit = layout.take<std::uint32_t>(batch_vectors<F>);
         asked = layout.take<std::uint32_t>(batch_vectors<F>);
         shadow.allocate(layout, batch_rays);
+        occluders = layout.take<Occluders>(job.scene.light_count);
+        for (std::uint32_t i = 0; occluders != nullptr && i < job.scene.light_count; ++i) occluders[i].count = 0;
         if (job.transmissive_shadows == 0) return;
         layout.take3(through, n);
         after_t = layout.take<S>(n);
