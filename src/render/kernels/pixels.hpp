@@ -7,6 +7,21 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
+/// The pixels of a region row by row, as their neighbours see them.
+template <FloatBatch F>
+struct RowMajor {
+    Scalar<F>*normal[3], *colour[3]; ///< of the centre ray
+    std::int32_t* object;            ///< -1: background
+    std::uint8_t* differs;
+
+    void allocate(ScratchLayout& layout, std::uint64_t n) {
+        layout.take3(normal, n);
+        layout.take3(colour, n);
+        object = layout.take<std::int32_t>(n);
+        differs = layout.take<std::uint8_t>(n);
+    }
+};
+
 /// The pixels of a region in Morton order, with what their samples have added up to.
 template <FloatBatch F>
 struct PixelBatch {
@@ -20,9 +35,9 @@ struct PixelBatch {
     std::uint32_t* chosen; ///< of a second pass: indices of its pixels
     std::uint32_t chosen_count;
     // edge only
-    S* refined[3];           ///< sums of the second pass, which replaces the first
-    S* normal[3];            ///< of the centre ray's hit
-    std::uint32_t* index_at; ///< of the pixel, row by row
+    S* refined[3]; ///< sums of the second pass, which replaces the first
+    S* normal[3];  ///< of the centre ray's hit
+    RowMajor<F> row_major;
 
     void allocate(ScratchLayout& layout, const RenderJob& job) {
         const bool edge = job.anti_alias == AntiAliasKind::edge;
@@ -38,7 +53,7 @@ struct PixelBatch {
         if (!edge) return;
         layout.take3(refined, n);
         layout.take3(normal, n);
-        index_at = layout.take<std::uint32_t>(n);
+        row_major.allocate(layout, n + side);
     }
 };
 
@@ -60,8 +75,6 @@ void list_pixels(PixelBatch<F>& pixels, const RenderJob& job, const Tile& region
         store(pixels.corner[0] + i, static_cast<F>(to_float(load_int<F>(pixels.x + i))));
         store(pixels.corner[1] + i, static_cast<F>(to_float(load_int<F>(pixels.y + i))));
     }
-    if (job.anti_alias != AntiAliasKind::edge) return;
-    for (std::uint32_t i = 0; i < n; ++i) pixels.index_at[(pixels.y[i] - region.y0) * w + (pixels.x[i] - region.x0)] = i;
 }
 
 template <FloatBatch F>
@@ -87,39 +100,52 @@ void choose_hits(const RenderJob& job, PixelBatch<F>& pixels) {
     }
 }
 
-/// Whether two neighbours look so different that one sample does not do: another object, a crease, or a step in colour.
+/// Bit 0 of row_major.differs: where one sample does not do between a pixel and its neighbour to the right, for there is another
+/// object, a crease, or a step in colour; bit 1: and the one below. The last column and row are compared with anything.
 template <FloatBatch F>
-bool edge_between(const SceneView& scene, const PixelBatch<F>& pixels, std::uint32_t a, std::uint32_t b) {
+void compare_neighbours(RowMajor<F>& at, std::uint32_t row, std::uint32_t area) {
     using S = Scalar<F>;
-    const std::int32_t slot_a = pixels.slot[a], slot_b = pixels.slot[b];
-    const auto object = [&](std::int32_t slot) { return slot < 0 ? -1 : static_cast<std::int32_t>(scene.object[slot]); };
-    if (object(slot_a) != object(slot_b)) return true;
-    if (slot_a >= 0) {
-        S cos_angle(0);
-        for (int c = 0; c < 3; ++c) cos_angle += pixels.normal[c][a] * pixels.normal[c][b];
-        if (cos_angle < S(0.9)) return true;
+    for (std::uint32_t i = 0; i < area; i += width<F>) {
+        const auto differ = [&](std::uint32_t j) {
+            const auto step = [&](const S* channel) {
+                const F a = load<F>(channel + i), b = load<F>(channel + j);
+                return abs(a - b) > F(S(0.03)) * (F(S(0.25)) + max(abs(a), abs(b)));
+            };
+            const Int<F> object = load_int<F>(at.object + i);
+            const Mask<F> same = object == load_int<F>(at.object + j);
+            const F cos_angle = dot(load<F>(at.normal, i), load<F>(at.normal, j));
+            const Mask<F> crease = Mask<F>((object > Int<F>(-1)) & (cos_angle < F(S(0.9))));
+            return bits(Mask<F>((!same) | crease | step(at.colour[0]) | step(at.colour[1]) | step(at.colour[2])));
+        };
+        const std::uint32_t right = differ(i + 1), below = differ(i + row);
+        for (std::uint32_t lane = 0; lane < width<F>; ++lane)
+            at.differs[i + lane] = static_cast<std::uint8_t>(((right >> lane) & 1u) | (((below >> lane) & 1u) << 1));
     }
-    for (int c = 0; c < 3; ++c) {
-        const S va = pixels.sum[c][a], vb = pixels.sum[c][b];
-        if (abs(va - vb) > S(0.03) * (S(0.25) + max(abs(va), abs(vb)))) return true;
-    }
-    return false;
 }
 
-/// Pixels of `tile` that differ from one of their four neighbours inside the region.
+/// Pixels of `tile` that differ from one of their four neighbours inside the region. Each pair is compared once.
 template <FloatBatch F>
 void choose_edges(const SceneView& scene, PixelBatch<F>& pixels, const Tile& region, const Tile& tile) {
     const std::int32_t row = region.x1 - region.x0, rows = region.y1 - region.y0;
+    RowMajor<F>& row_major = pixels.row_major;
+    for (std::uint32_t i = 0; i < pixels.count; ++i) {
+        const std::int32_t at = (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0);
+        const std::int32_t slot = pixels.slot[i];
+        row_major.object[at] = slot < 0 ? -1 : static_cast<std::int32_t>(scene.object[slot]);
+        for (int c = 0; c < 3; ++c) {
+            row_major.normal[c][at] = pixels.normal[c][i];
+            row_major.colour[c][at] = pixels.sum[c][i];
+        }
+    }
+    compare_neighbours(row_major, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows));
     pixels.chosen_count = 0;
     for (std::uint32_t i = 0; i < pixels.count; ++i) {
         if (pixels.x[i] < tile.x0 || pixels.x[i] >= tile.x1 || pixels.y[i] < tile.y0 || pixels.y[i] >= tile.y1) continue;
         const std::int32_t x = pixels.x[i] - region.x0, y = pixels.y[i] - region.y0;
-        const auto differs = [&](std::int32_t dx, std::int32_t dy) {
-            const std::int32_t nx = x + dx, ny = y + dy;
-            if (nx < 0 || ny < 0 || nx >= row || ny >= rows) return false;
-            return edge_between(scene, pixels, pixels.index_at[ny * row + nx], i);
-        };
-        if (differs(-1, 0) || differs(1, 0) || differs(0, -1) || differs(0, 1)) pixels.chosen[pixels.chosen_count++] = i;
+        const std::uint8_t* const here = row_major.differs + y * row + x;
+        const bool edge = (x + 1 < row && (here[0] & 1) != 0) || (x > 0 && (here[-1] & 1) != 0) ||
+                          (y + 1 < rows && (here[0] & 2) != 0) || (y > 0 && (here[-row] & 2) != 0);
+        if (edge) pixels.chosen[pixels.chosen_count++] = i;
     }
 }
 
