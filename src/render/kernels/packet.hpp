@@ -30,7 +30,7 @@ template <FloatBatch F>
 struct Packet {
     using S = Scalar<F>;
     static constexpr std::uint32_t capacity = packet_vectors * width<F>;
-    static constexpr std::uint32_t stride = capacity + width<F>; ///< compression stores whole vectors
+    static constexpr std::uint32_t stride = capacity + width<F>; ///< no power of two: arrays 4096 bytes apart share cache lines
 
     alignas(64) S org[3][stride];
     S dir[3][stride];
@@ -70,6 +70,8 @@ struct Packet {
         return {load<F>(dir[0] + i), load<F>(dir[1] + i), load<F>(dir[2] + i)};
     }
 };
+
+inline constexpr std::uint32_t packet_keys = 24;
 
 /// Octant in bits 0 to 2 (sign bits of x, y, z), dominant axis in bits 3 and 4: rays of one key may share a packet.
 template <FloatBatch F>
@@ -158,7 +160,7 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
             const F o = load<F>(packet.org[axis] + i);
             const F d = load<F>(packet.dir[axis] + i);
             const F away = along[axis] * ((abs(o) + largest) * F(S(9.6e-7))); // 16 u
-            const F rcp = F(1) / copysign(max(abs(d), least), along[axis]);
+            const F rcp = axis == kz ? inv_dz : F(1) / copysign(max(abs(d), least), along[axis]);
             const F o_near = o + away, o_far = o - away;
             store(packet.rcp[axis] + i, rcp);
             store(packet.org_near[axis] + i, o_near);

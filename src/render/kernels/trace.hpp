@@ -10,84 +10,76 @@ namespace lanecast::inline LANECAST_ISA {
 
 inline constexpr std::uint32_t max_batch_rays = 1024;
 
-/// Lanes of vector `vector` of a batch that stand in a packet from `place` on.
-struct Segment {
-    std::uint16_t vector, place;
-    std::uint32_t lanes;
-};
-
 template <FloatBatch F>
 struct TraceScratch {
+    static constexpr std::uint32_t stride = max_batch_rays + width<F>; ///< compression stores whole vectors
+
     Packet<F> packet;
-    Segment segments[Packet<F>::capacity + 1];
-    std::int32_t keys[max_batch_rays + 16];
+    std::int32_t rays_of[packet_keys][stride]; ///< the rays of each key, ascending
 };
 
 namespace detail {
 
-/// Moves lanes to or from packet arrays: whole vectors, the common case, without shuffling.
+/// Writes the rays of every key to scratch.rays_of, their numbers to counts. Returns the keys that some ray has, bit by bit.
 template <FloatBatch F>
-LANECAST_INLINE void pack(Scalar<F>* to, F lanes, Mask<F> mask, bool whole) {
-    if (whole)
-        store(to, lanes);
-    else
-        compress_store<F>(to, lanes, mask);
-}
-template <FloatBatch F>
-LANECAST_INLINE void pack_int(std::int32_t* to, Int<F> lanes, Mask<F> mask, bool whole) {
-    if (whole)
-        store(to, lanes);
-    else
-        compress_store_int<F>(to, lanes, mask);
-}
-
-/// Fills the packet with rays of `key`, from vector `vector` on, which moves past those that found place. Returns the number of
-/// segments.
-template <FloatBatch F>
-std::uint32_t gather_packet(TraceScratch<F>& scratch, const RayBatch<F>& rays, std::uint32_t n, std::int32_t key,
-                            std::uint32_t& vector) {
-    using S = Scalar<F>;
+LANECAST_INLINE std::uint32_t sort_by_key(TraceScratch<F>& scratch, const RayBatch<F>& rays, std::uint32_t n,
+                                          std::uint32_t (&counts)[packet_keys]) {
     constexpr std::uint32_t W = width<F>;
-    Packet<F>& packet = scratch.packet;
-    std::uint32_t count = 0, segments = 0;
-    for (; vector * W < n; ++vector) {
-        const std::uint32_t i = vector * W;
-        const Mask<F> mask = (load_int<F>(scratch.keys + i) == Int<F>(key)) & first_lanes<F>(n - i);
-        const std::uint32_t lanes = bits(mask);
-        if (lanes == 0) continue;
-        const auto taken = count_bits(lanes);
-        if (count + taken > Packet<F>::capacity) break;
-        const bool whole = lanes == all_lanes<F>;
-        for (int axis = 0; axis < 3; ++axis) {
-            pack<F>(packet.org[axis] + count, load<F>(rays.org[axis] + i), mask, whole);
-            pack<F>(packet.dir[axis] + count, load<F>(rays.dir[axis] + i), mask, whole);
-        }
-        pack_int<F>(packet.source + count, load_int<F>(rays.source + i), mask, whole);
-        pack<F>(packet.tmin + count, rays.tmins ? load<F>(rays.tmins + i) : F(S(rays.tmin)), mask, whole);
-        pack<F>(packet.t + count, rays.tmaxs ? load<F>(rays.tmaxs + i) : F(S(rays.tmax)), mask, whole);
-        if (rays.after) pack_int<F>(packet.after + count, load_int<F>(rays.after + i), mask, whole);
-        scratch.segments[segments++] = {static_cast<std::uint16_t>(vector), static_cast<std::uint16_t>(count), lanes};
-        count += taken;
+    std::int32_t ascending[W];
+    for (std::uint32_t lane = 0; lane < W; ++lane) ascending[lane] = static_cast<std::int32_t>(lane);
+    Int<F> index = load_int<F>(ascending);
+    std::uint32_t keys = 0;
+    for (std::uint32_t i = 0; i < n; i += W) {
+        for_each_unique<F>(packet_key<F>(load<F>(rays.dir, i)), first_lanes<F>(n - i), [&](std::int32_t key, Mask<F> lanes) {
+            const auto k = static_cast<std::uint32_t>(key);
+            if ((keys >> k & 1u) == 0) counts[k] = 0;
+            keys |= 1u << k;
+            compress_store_int<F>(scratch.rays_of[k] + counts[k], index, lanes);
+            counts[k] += count_bits(bits(lanes));
+        });
+        index = index + Int<F>(static_cast<std::int32_t>(W));
     }
-    packet.count = count;
-    return segments;
+    return keys;
 }
 
-template <FloatBatch F>
-void scatter_packet(const TraceScratch<F>& scratch, const RayBatch<F>& rays, std::uint32_t segments) {
-    const Packet<F>& packet = scratch.packet;
-    for (std::uint32_t k = 0; k < segments; ++k) {
-        const Segment& segment = scratch.segments[k];
-        const std::uint32_t i = segment.vector * static_cast<std::uint32_t>(width<F>);
-        if (segment.lanes == all_lanes<F>) {
-            store(rays.t + i, load<F>(packet.t + segment.place));
-            store(rays.slot + i, load_int<F>(packet.slot + segment.place));
+/// Runs body.operator()<B>(place, ray) for the rays in `list`: with B = F where a vector of them lie side by side, as
+/// coherent ones do, otherwise one by one, with B = Scalar<F>.
+template <FloatBatch F, class Body>
+LANECAST_INLINE void for_each_run(const std::int32_t* list, std::uint32_t count, Body&& body) {
+    constexpr std::uint32_t W = width<F>;
+    for (std::uint32_t place = 0; place < count; place += W) {
+        const auto first = static_cast<std::uint32_t>(list[place]);
+        if (place + W <= count && static_cast<std::uint32_t>(list[place + W - 1]) == first + W - 1) {
+            body.template operator()<F>(place, first);
             continue;
         }
-        const Mask<F> mask = mask_from_bits<F>(segment.lanes);
-        store(rays.t + i, select(mask, expand_load<F>(packet.t + segment.place, mask), load<F>(rays.t + i)));
-        store(rays.slot + i, select(mask, expand_load_int<F>(packet.slot + segment.place, mask), load_int<F>(rays.slot + i)));
+        const std::uint32_t end = place + W < count ? place + W : count;
+        for (std::uint32_t k = place; k < end; ++k) body.template operator()<Scalar<F>>(k, static_cast<std::uint32_t>(list[k]));
     }
+}
+
+/// The rays in `list` into a packet.
+template <FloatBatch F>
+LANECAST_INLINE void gather_packet(Packet<F>& packet, const RayBatch<F>& rays, const std::int32_t* list, std::uint32_t count) {
+    packet.count = count;
+    for_each_run<F>(list, count, [&]<class B>(std::uint32_t place, std::uint32_t ray) {
+        for (int axis = 0; axis < 3; ++axis) {
+            store(packet.org[axis] + place, load<B>(rays.org[axis] + ray));
+            store(packet.dir[axis] + place, load<B>(rays.dir[axis] + ray));
+        }
+        store(packet.source + place, load_int<B>(rays.source + ray));
+        store(packet.tmin + place, rays.tmins ? load<B>(rays.tmins + ray) : B(rays.tmin));
+        store(packet.t + place, rays.tmaxs ? load<B>(rays.tmaxs + ray) : B(rays.tmax));
+        if (rays.after) store(packet.after + place, load_int<B>(rays.after + ray));
+    });
+}
+
+template <FloatBatch F>
+LANECAST_INLINE void scatter_packet(const Packet<F>& packet, const RayBatch<F>& rays, const std::int32_t* list) {
+    for_each_run<F>(list, packet.count, [&]<class B>(std::uint32_t place, std::uint32_t ray) {
+        store(rays.t + ray, load<B>(packet.t + place));
+        store(rays.slot + ray, load_int<B>(packet.slot + place));
+    });
 }
 
 } // namespace detail
@@ -97,22 +89,17 @@ template <Query query, FloatBatch F>
 void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, bool brute_force, TraceScratch<F>& scratch,
            RayKindStats& stats) {
     if (n == 0) return;
-    const std::uint64_t begin = ticks();
-    constexpr std::uint32_t W = width<F>;
-    std::uint32_t keys = 0; // bit k: some ray has key k
-    for (std::uint32_t i = 0; i < n; i += W) {
-        const Int<F> key = packet_key<F>(load<F>(rays.dir, i));
-        store(scratch.keys + i, key);
-        for_each_unique<F>(key, first_lanes<F>(n - i), [&](std::int32_t k, Mask<F>) { keys |= 1u << k; });
-    }
+    const std::uint64_t started = ticks();
+    std::uint32_t counts[packet_keys];
     Occupancy occupancy{};
-    for_each_bit(keys, [&](std::uint32_t key) {
-        for (std::uint32_t vector = 0; vector * W < n;) {
-            const std::uint32_t segments = detail::gather_packet(scratch, rays, n, static_cast<std::int32_t>(key), vector);
-            if (segments == 0) break;
+    for_each_bit(detail::sort_by_key(scratch, rays, n, counts), [&](std::uint32_t key) {
+        for (std::uint32_t begin = 0; begin < counts[key]; begin += Packet<F>::capacity) {
+            const std::int32_t* const list = scratch.rays_of[key] + begin;
+            const std::uint32_t left = counts[key] - begin;
+            detail::gather_packet(scratch.packet, rays, list, left < Packet<F>::capacity ? left : Packet<F>::capacity);
             finish_packet(scratch.packet, static_cast<std::int32_t>(key), scene.max_coordinate);
             traverse_packet<query>(scene, scratch.packet, rays.occluders, brute_force, occupancy);
-            detail::scatter_packet(scratch, rays, segments);
+            detail::scatter_packet(scratch.packet, rays, list);
         }
     });
     stats.rays += n;
@@ -121,7 +108,7 @@ void trace(const SceneView& scene, const RayBatch<F>& rays, std::uint32_t n, boo
     stats.first_active += occupancy.first_active;
     stats.last_lanes += occupancy.last_lanes;
     stats.last_active += occupancy.last_active;
-    stats.ticks += ticks() - begin;
+    stats.ticks += ticks() - started;
 }
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -137,7 +137,7 @@ LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders
 template <Query query, FloatBatch F>
 std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders* occluders) {
     std::uint32_t last = (1u << packet.vectors) - 1u;
-    std::uint32_t open = packet.count;
+    std::uint32_t open = query == Query::any && occluders != nullptr ? count_open(packet) : 0;
     if (query == Query::any && occluders != nullptr && occluders->count > 0) {
         try_occluders(scene, packet, *occluders, open);
         if (packet.t_max < Scalar<F>(0)) return last;
