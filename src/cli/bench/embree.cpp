@@ -2,17 +2,9 @@
 // timed.
 
 #include "cli/bench/contender.hpp"
-
-#if LANECAST_EMBREE_MAJOR == 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
-#include "scene/error.hpp"
+#include "cli/bench/embree_scene.hpp"
 
 #include <chrono>
-#include <cstring>
 #include <limits>
 #include <new>
 
@@ -231,29 +223,10 @@ private:
 std::shared_ptr<Tree> build_tree(const BenchMesh& mesh, const std::string& isa, bool high, int threads, BuildRow& row) {
     const auto begin = std::chrono::steady_clock::now();
     const auto tree = std::make_shared<Tree>();
-    const std::string config = "isa=" + isa + ",hugepages=1,threads=" + std::to_string(threads);
-    tree->device = rtcNewDevice(config.c_str());
-    if (tree->device == nullptr) throw Error(ExitCode::isa, "bench: Embree has no device for " + config);
     static double bytes = 0; // one tree at a time
     bytes = 0;
-    rtcSetDeviceMemoryMonitorFunction(
-        tree->device,
-        [](void*, ssize_t change, bool) {
-            bytes += static_cast<double>(change);
-            return true;
-        },
-        nullptr);
-    tree->scene = rtcNewScene(tree->device);
-    rtcSetSceneBuildQuality(tree->scene, high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
-    const RTCGeometry geometry = rtcNewGeometry(tree->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* const vertices =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size() / 3);
-    void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles());
-    std::memcpy(vertices, mesh.positions.data(), mesh.positions.size() * sizeof(float));
-    std::memcpy(indices, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree->scene, geometry);
-    rtcReleaseGeometry(geometry);
+    tree->device = make_device(isa, threads, bytes);
+    tree->scene = make_scene(tree->device, mesh, high);
     rtcCommitScene(tree->scene);
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     row.bytes = bytes;
