@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     add_pick(app, command);
     add_diff(app, command);
     add_bench(app, command);
+    add_measure(app, command);
     add_schema(app, command);
     describe_usage(app);
     try {

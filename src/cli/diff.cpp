@@ -1,6 +1,7 @@
 #include "cli/diff.hpp"
 
 #include "render/exr_io.hpp"
+#include "render/flip.hpp"
 #include "render/png_io.hpp"
 #include "render/read_picture.hpp"
 #include "render/tonemap.hpp"
@@ -31,6 +32,7 @@ namespace {
 
 void print_measures(const Comparison& comparison, double threshold, std::ostream& out) {
     out << "RMSE                " << number(comparison.rmse) << "\n";
+    out << "relMSE              " << number(comparison.relmse) << " (of b)\n";
     out << "largest difference  " << number(comparison.largest);
     if (comparison.largest > 0)
         out << " (" << number(255 * comparison.largest, 4) << "/255) at (" << comparison.largest_x << ", " << comparison.largest_y
@@ -39,6 +41,11 @@ void print_measures(const Comparison& comparison, double threshold, std::ostream
             << number(static_cast<double>(comparison.largest_b), 9);
     out << "\npixels off          " << number(100 * off_share(comparison), 4) << " % (" << comparison.off_pixels << " of "
         << comparison.pixels << ") by more than " << number(255 * threshold, 4) << "/255\n";
+}
+
+/// How a picture is seen: an EXR as the view `srgb` shows it, a PNG's codes as a screen does.
+[[nodiscard]] SeenPicture seen(const std::filesystem::path& path, const Film& film) {
+    return see(film, picture_kind(path) == PictureKind::png ? PixelValues::codes : PixelValues::linear);
 }
 
 void write_difference(const std::filesystem::path& path, const Film& a, const Film& b, const std::optional<float>& scale) {
@@ -74,6 +81,8 @@ int run_diff(const DiffOptions& options, std::ostream& out) {
     if (picture_kind(options.a) != picture_kind(options.b))
         out << "note                an EXR holds linear values, a PNG those of its view: comparable only for the view `plain`\n";
     print_measures(comparison, options.threshold, out);
+    if (comparison.same_window) // of parts of pictures it would be that of their borders
+        out << "FLIP                " << number(mean_flip(seen(options.a, a), seen(options.b, b))) << "\n";
     if (!options.output.empty() && comparison.pixels > 0) write_difference(options.output, a, b, options.scale);
 
     const bool pass = accepted(options, comparison);

@@ -19,6 +19,13 @@ namespace {
     return std::isfinite(d) ? d : std::numeric_limits<double>::infinity();
 }
 
+/// As the eye judges differences: by the light there. 1/100 keeps the dark from deciding alone (Rousselle et al. 2011).
+[[nodiscard]] double relative_square(double difference, float reference) noexcept {
+    if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
+    const double r = static_cast<double>(reference);
+    return std::isfinite(r) ? difference * difference / (r * r + 0.01) : 0; // equal infinities
+}
+
 /// Of the image; empty where x1 <= x0 or y1 <= y0.
 [[nodiscard]] Tile common_window(const Film& a, const Film& b) noexcept {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x0 + a.width, b.x0 + b.width),
@@ -46,7 +53,7 @@ Comparison compare(const Film& a, const Film& b, double off_threshold) noexcept 
 
     const Tile common = common_window(a, b);
     const double limit = with_rounding_of_codes(off_threshold);
-    double sum = 0;
+    double sum = 0, relative_sum = 0;
     for (int y = common.y0; y < common.y1; ++y)
         for (int x = common.x0; x < common.x1; ++x) {
             const std::size_t i = index_of(a, x, y), j = index_of(b, x, y);
@@ -55,6 +62,7 @@ Comparison compare(const Film& a, const Film& b, double off_threshold) noexcept 
                 const float value_a = a.rgb[static_cast<std::size_t>(c)][i], value_b = b.rgb[static_cast<std::size_t>(c)][j];
                 const double d = difference(value_a, value_b);
                 sum += d * d;
+                relative_sum += relative_square(d, value_b);
                 worst = std::max(worst, d);
                 if (d > result.largest) {
                     result.largest = d;
@@ -65,7 +73,10 @@ Comparison compare(const Film& a, const Film& b, double off_threshold) noexcept 
             ++result.pixels;
             result.off_pixels += worst > limit ? 1 : 0;
         }
-    if (result.pixels > 0) result.rmse = std::sqrt(sum / (3.0 * static_cast<double>(result.pixels)));
+    if (result.pixels == 0) return result;
+    const double values = 3.0 * static_cast<double>(result.pixels);
+    result.rmse = std::sqrt(sum / values);
+    result.relmse = relative_sum / values;
     return result;
 }
 

@@ -18,6 +18,7 @@ struct Comparison {
     bool identical = false;                                ///< size, window and every bit: also +0 and -0 differ
     std::uint64_t pixels = 0;                              ///< compared
     double rmse = 0;                                       ///< root of the mean square over pixels and channels
+    double relmse = 0;                                     ///< mean of (a - b)^2 / (b^2 + 1/100): b is the reference
     double largest = 0;                                    ///< difference of a channel
     int largest_x = 0, largest_y = 0, largest_channel = 0; ///< the first such pixel, in the image; meaningful if largest > 0
     float largest_a = 0, largest_b = 0;                    ///< the values there

@@ -25,4 +25,14 @@ inline constexpr float largest_half = 65504.0f;
     return static_cast<std::uint16_t>((bits >> 16 & 0x8000u) | (magnitude < (113u << 23) ? subnormal : normal));
 }
 
+/// The half as a float again: what a file of halves gives back. The same conditions.
+[[nodiscard]] inline float rounded_to_half(float value) noexcept {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffffu;
+    const float subnormal = (std::bit_cast<float>(magnitude) + 0.5f) - 0.5f;
+    const std::uint32_t normal = (magnitude + 0xfffu + ((magnitude >> 13) & 1u)) & ~0x1fffu;
+    const std::uint32_t rounded = magnitude < (113u << 23) ? std::bit_cast<std::uint32_t>(subnormal) : normal;
+    return std::bit_cast<float>(rounded | (bits & 0x80000000u));
+}
+
 } // namespace lanecast

@@ -1,9 +1,9 @@
 #include "render/renderer.hpp"
 
 #include "render/camera.hpp"
-#include "render/tiles.hpp"
 #include "scene/aligned_bytes.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -15,26 +15,6 @@ namespace lanecast {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void add(TileStats& sum, const TileStats& tile) {
-    for (int kind = 0; kind < ray_kind_count; ++kind) {
-        RayKindStats& to = sum.kinds[kind];
-        const RayKindStats& from = tile.kinds[kind];
-        to.rays += from.rays;
-        to.batches += from.batches;
-        to.first_lanes += from.first_lanes;
-        to.first_active += from.first_active;
-        to.last_lanes += from.last_lanes;
-        to.last_active += from.last_active;
-        to.ticks += from.ticks;
-    }
-    sum.total_ticks += tile.total_ticks;
-}
-
-// Edge traces the border of a tile too.
-PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
-    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
-}
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
     switch (mode) {
@@ -56,6 +36,26 @@ std::uint64_t ray_count(const TileStats& stats) noexcept {
     std::uint64_t rays = 0;
     for (const RayKindStats& kind : stats.kinds) rays += kind.rays;
     return rays;
+}
+
+void add(TileStats& sum, const TileStats& tile) noexcept {
+    for (int kind = 0; kind < ray_kind_count; ++kind) {
+        RayKindStats& to = sum.kinds[kind];
+        const RayKindStats& from = tile.kinds[kind];
+        to.rays += from.rays;
+        to.batches += from.batches;
+        to.first_lanes += from.first_lanes;
+        to.first_active += from.first_active;
+        to.last_lanes += from.last_lanes;
+        to.last_active += from.last_active;
+        to.ticks += from.ticks;
+    }
+    sum.total_ticks += tile.total_ticks;
+}
+
+// Edge traces the border of a tile too.
+PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
+    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
 }
 
 RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, const FrameOptions& options) {

@@ -3,6 +3,7 @@
 
 #include "render/film.hpp"
 #include "render/kernel_table.hpp"
+#include "render/tiles.hpp"
 #include "scene/render_settings.hpp"
 #include "scene/scene_arrays.hpp"
 
@@ -21,6 +22,7 @@ struct FrameOptions {
 
 /// Of all kinds.
 [[nodiscard]] std::uint64_t ray_count(const TileStats& stats) noexcept;
+void add(TileStats& sum, const TileStats& tile) noexcept;
 
 struct FrameStats {
     TileStats tiles{}; ///< summed over tiles and threads
@@ -41,6 +43,9 @@ using Progress = std::function<void(double done, std::uint64_t rays)>;
 /// The job a frame's kernels get, without its film.
 [[nodiscard]] RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings,
                                  const FrameOptions& options);
+
+/// In which order the kernels take the pixels of a tile: RenderJob::pixel_order.
+[[nodiscard]] PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options);
 
 /// Throws std::bad_alloc.
 [[nodiscard]] Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,

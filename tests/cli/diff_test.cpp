@@ -173,3 +173,20 @@ TEST_CASE("what cannot be read is an asset error that names the file") {
         CHECK(contains(error.what(), path.string() + ": cannot read: "));
     }
 }
+
+TEST_CASE("FLIP is that of what is shown: a PNG's codes and the radiance behind them look the same") {
+    const TemporaryDirectory directory;
+    const auto a = directory.path / "a.exr", b = directory.path / "b.exr", pa = directory.path / "a.png",
+               pb = directory.path / "b.png";
+    const Film dark = film_of(24, 24, {0, 0, 24, 24}, [](int x, int, int) { return 0.1f + 0.01f * static_cast<float>(x); });
+    const Film light = film_of(24, 24, {0, 0, 24, 24}, [](int x, int, int) { return 0.2f + 0.01f * static_cast<float>(x); });
+    write_exr(a, dark, {.float_pixels = true, .attributes = {}});
+    write_exr(b, light, {.float_pixels = true, .attributes = {}});
+    write_png(pa, tonemap(dark, View::srgb));
+    write_png(pb, tonemap(light, View::srgb));
+    const auto flip = [](const std::string& text) { return std::stod(text.substr(text.find("\nFLIP ") + 6)); };
+    const double linear = flip(diff(between(a, b)).text), codes = flip(diff(between(pa, pb)).text);
+    CHECK(linear > 0.05);
+    CHECK(codes == doctest::Approx(linear).epsilon(0.02));
+    CHECK(flip(diff(between(a, a)).text) == 0);
+}

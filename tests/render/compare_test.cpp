@@ -159,3 +159,18 @@ TEST_CASE("sizes must agree; of different windows the common pixels are compared
     CHECK(picture.rgb[0].back() == 3.5f);
     CHECK(std::count(picture.rgb[0].begin(), picture.rgb[0].end(), 0.0f) == 199);
 }
+
+TEST_CASE("relMSE: squares over those of the second picture and a hundredth") {
+    const auto one = [](float value) {
+        return film_of(1, 1, {0, 0, 1, 1}, [&](int, int, int c) { return c == 0 ? value : 0.0f; });
+    };
+    CHECK(compare(one(0.5f), one(0.5f)).relmse == 0);
+    CHECK(compare(one(0.75f), one(0.5f)).relmse == doctest::Approx(0.0625 / (0.25 + 0.01) / 3).epsilon(1e-12));
+    CHECK(compare(one(0.5f), one(0.75f)).relmse == doctest::Approx(0.0625 / (0.5625 + 0.01) / 3).epsilon(1e-12));
+    CHECK(compare(one(0.125f), one(0)).relmse == doctest::Approx(0.015625 / 0.01 / 3).epsilon(1e-12));
+    CHECK(compare(one(infinity), one(infinity)).relmse == 0);
+    CHECK(std::isinf(compare(one(infinity), one(1)).relmse));
+    CHECK(std::isinf(compare(one(1), one(infinity)).relmse));
+    CHECK(std::isinf(compare(one(not_a_number), one(1)).relmse));
+    CHECK(std::isinf(compare(one(1), one(not_a_number)).relmse));
+}

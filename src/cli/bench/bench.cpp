@@ -5,6 +5,7 @@
 #include "cli/bench/frames.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/commands.hpp"
+#include "cli/machine.hpp"
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
@@ -63,13 +64,6 @@ std::vector<std::string> all_isas() {
     return names.empty() ? std::vector<std::string>{"scalar"} : names;
 }
 
-std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    return "unknown CPU";
-}
-
 /// Adds the rows of a set. Agreement is checked once, not for every number of threads.
 void measure_set(const Contenders& contenders, const RaySet& set, int threads, const Truth* truth, const BenchRequest& request,
                  Report& report) {
@@ -105,12 +99,6 @@ void write_file(const std::string& file, const std::string& text) {
     out << text;
     if (!out.flush()) throw Error(ExitCode::output, "cannot write " + file);
 }
-
-#ifdef __clang__
-constexpr const char* compiler = "clang++ " __clang_version__;
-#else
-constexpr const char* compiler = "g++ " __VERSION__;
-#endif
 
 /// A line per size, tree, instruction set and number of threads.
 void measure_builds(const BenchRequest& request, const std::vector<std::string>& isas) {
@@ -158,7 +146,7 @@ int run(const BenchRequest& request) {
     }
     Report report{.mesh = mesh.name,
                   .cpu = cpu_name(),
-                  .compiler = compiler,
+                  .compiler = compiler_name(),
                   .commit = request.commit,
                   .options = request.options,
                   .triangles = mesh.triangles(),

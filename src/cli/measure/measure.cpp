@@ -1,0 +1,139 @@
+// lanecast measure: what each knob costs and gives on a scene, against the reference.
+
+#include "cli/commands.hpp"
+#include "cli/frame_request.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/machine.hpp"
+#include "cli/measure/report.hpp"
+#include "cli/parse_value.hpp"
+#include "cli/print.hpp"
+#include "render/dispatch.hpp"
+#include "render/output_file.hpp"
+#include "render/png_io.hpp"
+#include "scene/error.hpp"
+#include "scene/text_tools.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace lanecast {
+namespace {
+
+using namespace trade;
+
+struct MeasureRequest {
+    FrameRequest frame;
+    bool quick = false;
+    std::size_t tiles = 24;
+    ExperimentOptions experiment;
+    std::string json, html;
+    std::vector<std::string> plots;
+};
+
+constexpr KeySpec tiles_key{.name = "tiles", .kind = ValueKind::whole, .range = {.low = 1, .high = 65536}};
+constexpr KeySpec repetitions_key{.name = "repetitions", .kind = ValueKind::whole, .range = {.low = 1, .high = 1000}};
+constexpr KeySpec samples_key{.name = "reference samples", .kind = ValueKind::whole, .range = {.low = 2, .high = 64}};
+constexpr KeySpec rays_key{.name = "rays", .kind = ValueKind::whole, .range = {.low = 1, .high = 1 << 24}};
+
+bool is_png(const std::string& file) { return lower_case(std::filesystem::path(file).extension().string()) == ".png"; }
+
+void write_text(const std::string& path, const std::string& text) {
+    if (path.empty()) return;
+    OutputFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+/// Before the work, not after it.
+void probe_outputs(const MeasureRequest& request) {
+    for (const std::string& plot : request.plots)
+        if (!is_png(plot) && lower_case(std::filesystem::path(plot).extension().string()) != ".svg")
+            throw Error(ExitCode::usage, "--plot: " + printable_path(plot) + ": a plot is an .svg or a .png");
+    std::vector<std::string> files{request.json, request.html};
+    files.insert(files.end(), request.plots.begin(), request.plots.end());
+    for (const std::string& file : files)
+        if (!file.empty()) const OutputFile probe(file);
+}
+
+/// Soft shadows are among the trials, whatever the scene asks for.
+SceneArrays flatten_for_trials(const FrameRequest& request, RequestedScene& scene, const FixedKnobs& fixed) {
+    const int own = scene.settings.soft_shadows;
+    if (!fixed[Knob::soft_shadows]) scene.settings.soft_shadows = std::max(own, 1);
+    SceneArrays arrays = flatten_requested(request, scene);
+    scene.settings.soft_shadows = own;
+    return arrays;
+}
+
+int measure(const MeasureRequest& request) {
+    RequestedScene scene = load_requested(request.frame);
+    static_cast<void>(find_kernels(request.frame.isa, Precision::balanced)); // a name that does not exist ends here
+    probe_outputs(request);
+    ExperimentOptions options = request.experiment;
+    options.fixed = fixed_knobs([&](const RenderSettings& settings) { return changed(settings, request.frame.changes); });
+    options.tiles = request.quick ? request.tiles : 0;
+    if (!request.frame.quiet) options.say = [](const std::string& text) { print_message("lanecast measure: " + text); };
+    const SceneArrays arrays = flatten_for_trials(request.frame, scene, options.fixed);
+
+    const InterruptScope interrupt;
+    Bench bench;
+    bench.scene = &arrays;
+    bench.camera = &scene.description.camera;
+    bench.isa = request.frame.isa;
+    bench.options = frame_options(request.frame, scene);
+    bench.options.stop = &interrupt.stop();
+    bench.interrupt = &interrupt;
+    Report report = run_experiment(bench, {scene.settings, false}, options);
+    report.scene = std::filesystem::path(request.frame.scene).filename().string();
+    report.cpu = cpu_name();
+    report.compiler = compiler_name();
+    interrupt.check();
+
+    write_text(request.json, request.json.empty() ? "" : json_report(report));
+    write_text(request.html, request.html.empty() ? "" : html_report(report));
+    for (const std::string& file : request.plots) {
+        if (is_png(file))
+            write_png(std::filesystem::path(file), bench::picture_of(plot(report)));
+        else
+            write_text(file, svg_of(plot(report)));
+    }
+    print_result(text_report(report));
+    return static_cast<int>(ExitCode::done);
+}
+
+template <class Set>
+void add_count(CLI::App& command, const std::string& name, const char* help, const KeySpec& key, const Set& set) {
+    command
+        .add_option_function<std::string>(
+            name, [name, &key, set](const std::string& text) { set(parse_number(name, text, key)); }, help)
+        ->type_name("N");
+}
+
+} // namespace
+
+void add_measure(CLI::App& app, Command& chosen) {
+    CLI::App* const command = app.add_subcommand("measure", "Measure what each knob costs and gives on a scene");
+    const auto request = std::make_shared<MeasureRequest>();
+    MeasureRequest& r = *request;
+    add_scene_options(*command, r.frame);
+    command->add_flag("--quick", r.quick, "Some tiles spread over the frame instead of all of it");
+    add_count(*command, "--tiles", "How many, with --quick; default 24", tiles_key,
+              [&r](double v) { r.tiles = static_cast<std::size_t>(v); });
+    add_count(*command, "--repetitions", "Of which the median time counts; default 5", repetitions_key,
+              [&r](double v) { r.experiment.repetitions = static_cast<int>(v); });
+    add_count(*command, "--reference-samples", "Per side of a pixel of the reference picture; default 16", samples_key,
+              [&r](double v) { r.experiment.truth_samples = static_cast<int>(v); });
+    add_count(*command, "--rays", "Camera rays that are compared one by one; default 262144", rays_key,
+              [&r](double v) { r.experiment.rays = static_cast<std::size_t>(v); });
+    command->add_option("--json", r.json, "Write everything as JSON")->type_name("FILE");
+    command->add_option("--html", r.html, "Write tables and plot as a page that needs no other file")->type_name("FILE");
+    command->add_option("--plot", r.plots, "Write the plot of error against time: SVG, or PNG by its ending")
+        ->delimiter(',')
+        ->type_name("LIST");
+    add_frame_options(*command, r.frame);
+    add_flatten_options(*command, r.frame);
+    command->final_callback([&chosen, request] { chosen = [request] { return measure(*request); }; });
+}
+
+} // namespace lanecast

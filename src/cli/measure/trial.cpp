@@ -1,0 +1,178 @@
+#include "cli/measure/trial.hpp"
+
+#include "render/compare.hpp"
+#include "render/dispatch.hpp"
+#include "render/exr_io.hpp"
+#include "render/half_float.hpp"
+#include "render/scrub.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <time.h>
+#include <unistd.h>
+
+namespace lanecast::trade {
+namespace {
+
+/// The frame's mean may lie this far above that of the sample: two standard errors, for n tiles of the frame's N.
+[[nodiscard]] double above(const std::vector<double>& by_tile, double share_of_frame) {
+    const auto n = static_cast<double>(by_tile.size());
+    double mean = 0, square = 0;
+    for (const double v : by_tile) mean += v / n;
+    for (const double v : by_tile) square += (v - mean) * (v - mean);
+    if (n < 2) return 0;
+    return 2 * std::sqrt(square / (n - 1) / n * std::max(0.0, 1 - share_of_frame));
+}
+
+[[nodiscard]] double process_time() {
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The windows of a sample side by side in rows about as long as the image's, as one film: a file's compression goes by rows.
+[[nodiscard]] Film packed(const std::vector<Film>& films, int image_width) {
+    int cell_width = 1, cell_height = 1;
+    for (const Film& film : films) {
+        cell_width = std::max(cell_width, film.width);
+        cell_height = std::max(cell_height, film.height);
+    }
+    const int count = static_cast<int>(films.size());
+    const int columns = std::clamp(image_width / cell_width, 1, count), rows = (count + columns - 1) / columns;
+    Film all = make_film(columns * cell_width, rows * cell_height, {0, 0, columns * cell_width, rows * cell_height});
+    for (int i = 0; i < count; ++i) {
+        const Film& film = films[static_cast<std::size_t>(i)];
+        for (int y = 0; y < film.height; ++y)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(i / columns * cell_height + y) * all.width;
+                std::copy_n(film.rgb[c].begin() + y * static_cast<std::ptrdiff_t>(film.width), film.width,
+                            all.rgb[c].begin() + row + i % columns * cell_width);
+            }
+    }
+    return all;
+}
+
+} // namespace
+
+PictureError error_of(const std::vector<Film>& films, const ReferencePicture& reference, const TileSample& sample) {
+    PictureError error;
+    double pixels = 0, squares = 0, relative = 0, off = 0, flip = 0;
+    std::vector<double> mse_by_tile, flip_by_tile;
+    for (std::size_t i = 0; i < films.size(); ++i) {
+        const Comparison c = compare(films[i], reference.films[i]);
+        const auto n = static_cast<double>(c.pixels);
+        const double seen = mean_flip(see(films[i]), reference.seen[i]);
+        pixels += n;
+        squares += c.rmse * c.rmse * n;
+        relative += c.relmse * n;
+        off += static_cast<double>(c.off_pixels);
+        flip += seen * n;
+        error.largest = std::max(error.largest, c.largest);
+        mse_by_tile.push_back(c.rmse * c.rmse);
+        flip_by_tile.push_back(seen);
+    }
+    error.rmse = std::sqrt(squares / pixels);
+    error.relmse = relative / pixels;
+    error.off = off / pixels;
+    error.flip = flip / pixels;
+    const double share = sample.pixels() / sample.frame_pixels;
+    error.rmse_above = std::sqrt(squares / pixels + above(mse_by_tile, share));
+    error.flip_above = error.flip + above(flip_by_tile, share);
+    return error;
+}
+
+RenderedSample render(const Bench& bench, const RenderSettings& settings) {
+    const bool reference = settings.precision == Precision::reference;
+    const KernelTable& kernels = find_kernels(reference ? "auto" : bench.isa, settings.precision);
+    RenderedSample rendered = render_sample(kernels, *bench.scene, *bench.camera, settings, bench.options, bench.sample);
+    bench.interrupt->check();
+    for (Film& film : rendered.films) scrub(film);
+    return rendered;
+}
+
+void round_as_file(std::vector<Film>& films, bool float_file) {
+    if (float_file) return;
+    for (Film& film : films)
+        for (auto& plane : film.rgb)
+            for (float& value : plane) value = rounded_to_half(std::clamp(value, -largest_half, largest_half));
+}
+
+ReferencePicture render_reference(const Bench& bench, const Choice& choice) {
+    RenderedSample rendered = render(bench, choice.settings);
+    ReferencePicture reference;
+    reference.seconds = rendered.seconds;
+    reference.films = std::move(rendered.films);
+    round_as_file(reference.films, choice.float_file);
+    for (const Film& film : reference.films) reference.seen.push_back(see(film));
+    return reference;
+}
+
+ReferencePicture cut(const ReferencePicture& reference, const TileSample& sample) {
+    ReferencePicture out;
+    out.seconds = reference.seconds;
+    for (const Tile& window : sample.windows) {
+        const Film& from = *std::ranges::find_if(reference.films, [&](const Film& film) {
+            return film.x0 <= window.x0 && film.y0 <= window.y0 && film.x0 + film.width >= window.x1 &&
+                   film.y0 + film.height >= window.y1;
+        });
+        Film film = make_film(from.image_width, from.image_height, window);
+        for (int y = 0; y < film.height; ++y)
+            for (std::size_t c = 0; c < 3; ++c)
+                std::copy_n(from.rgb[c].begin() + (film.y0 - from.y0 + y) * static_cast<std::ptrdiff_t>(from.width) + film.x0 -
+                                from.x0,
+                            film.width, film.rgb[c].begin() + y * static_cast<std::ptrdiff_t>(film.width));
+        out.seen.push_back(see(film));
+        out.films.push_back(std::move(film));
+    }
+    return out;
+}
+
+double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file) {
+    const Film film = packed(films, bench.sample.width);
+    const std::string name = "lanecast_measure_" + std::to_string(::getpid()) + ".exr";
+    OutputFile file(std::filesystem::temp_directory_path() / name); // never committed, so it leaves nothing behind
+    const double begin = process_time();
+    write_exr(file, film, {.float_pixels = float_file, .threads = 1, .attributes = {}});
+    return (process_time() - begin) * frame_scale(bench.sample);
+}
+
+void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders) {
+    const auto ladder = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
+    if (ladder == ladders.end()) return;
+    constexpr double most_rays = 30;
+    constexpr std::size_t tiles = 8;
+    Bench few = bench;
+    few.options.width = bench.sample.width;
+    few.options.height = bench.sample.height;
+    few.sample = spread_tiles(few.options, tiles);
+    RenderSettings settings = true_choice(base, ladders).settings;
+    settings.precision = Precision::balanced;
+    settings.anti_aliasing.mode = AntiAliasMode::off;
+    settings.soft_shadows = 0;
+    settings.shadows = false;
+    double cutoff = 1.0 / 256;
+    for (double next = cutoff; next >= 1.0 / 65536; next /= 4) {
+        settings.cutoff = next;
+        const TileStats stats = render(few, settings).stats;
+        const auto rays = [&](RayKind kind) { return static_cast<double>(stats.kinds[static_cast<int>(kind)].rays); };
+        if (rays(RayKind::reflection) + rays(RayKind::refraction) > most_rays * rays(RayKind::primary)) break;
+        cutoff = next;
+    }
+    set_true_cutoff(*ladder, cutoff, base);
+}
+
+Choice second_truth(const Choice& truth) {
+    Choice second = truth;
+    AntiAliasing& aa = second.settings.anti_aliasing;
+    if (aa.mode == AntiAliasMode::grid) aa.samples = std::max(1, 2 * aa.samples / 3);
+    second.settings.soft_shadows = 2 * second.settings.soft_shadows / 3;
+    second.settings.cutoff = std::min(1.0, 4 * second.settings.cutoff);
+    second.settings.precision = Precision::balanced;
+    return second;
+}
+
+double frame_scale(const TileSample& sample) { return sample.frame_pixels / sample.pixels(); }
+
+} // namespace lanecast::trade

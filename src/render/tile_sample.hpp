@@ -1,0 +1,43 @@
+#pragma once
+// Some tiles of a frame, or all of them, rendered and timed each on its own: the pixels are those of the whole frame, bit for
+// bit, and a processor that is shared with others spoils no time.
+
+#include "render/renderer.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace lanecast {
+
+struct TileSample {
+    int width = 0, height = 0; ///< of the image, in pixels
+    int tile_size = 32;
+    std::vector<Tile> windows;            ///< of the films
+    std::vector<Tile> tiles;              ///< what is rendered
+    std::vector<std::uint32_t> window_of; ///< by tile
+    double frame_pixels = 0;              ///< of the frame that is sampled
+    [[nodiscard]] double pixels() const {
+        double sum = 0;
+        for (const Tile& t : tiles) sum += static_cast<double>(t.x1 - t.x0) * (t.y1 - t.y0);
+        return sum;
+    }
+};
+
+/// Every tile of options.crop, or of the whole image, in one film.
+[[nodiscard]] TileSample every_tile(const FrameOptions& options);
+
+/// `count` tiles spread evenly over it, each with a film of its own; all of them if there are no more.
+[[nodiscard]] TileSample spread_tiles(const FrameOptions& options, std::size_t count);
+
+struct RenderedSample {
+    std::vector<Film> films; ///< by window
+    TileStats stats{};       ///< of all tiles
+    double seconds = 0;      ///< processor time of the threads inside tiles
+    bool complete = false;   ///< false: stopped
+};
+
+/// As `render_frame` would. options.crop does not count. Throws std::bad_alloc.
+[[nodiscard]] RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,
+                                           const RenderSettings& settings, const FrameOptions& options, const TileSample& sample);
+
+} // namespace lanecast
