@@ -36,6 +36,7 @@ std::vector<ExrAttribute> exr_attributes(const RenderReport& report, bool volati
     };
     if (!volatile_metadata) return attributes;
     const auto add = [&](const char* name, auto value) { attributes.push_back({std::string("lanecast:") + name, value}); };
+    if (!report.budget.empty()) add("budget", report.budget); // the same settings given by hand make the same file but for this
     add("isa", report.isa);
     add("threads", report.stats.threads);
     add("loadSeconds", report.load_seconds);

@@ -2,11 +2,11 @@
 
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
-#include "scene/thread_count.hpp"
 #include "scene/error.hpp"
 #include "scene/flatten.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene_message.hpp"
+#include "scene/thread_count.hpp"
 
 #include <chrono>
 

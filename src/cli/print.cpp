@@ -70,6 +70,12 @@ std::string short_count(double value) {
     return in_units(value, units);
 }
 
+std::string short_error(double error) {
+    char text[32];
+    std::snprintf(text, sizeof text, error != 0 && error < 1e-3 ? "%.2e" : "%.3g", error);
+    return text;
+}
+
 std::string short_seconds(double seconds) {
     static constexpr Unit units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}};
     return in_units(seconds, units);

@@ -21,6 +21,8 @@ void print_message(std::string_view line) noexcept;
 [[nodiscard]] std::string short_count(double value);
 /// "1.23 s", "45.6 ms", "7.89 us".
 [[nodiscard]] std::string short_seconds(double seconds);
+/// "0.0123", "4.56e-05": three digits.
+[[nodiscard]] std::string short_error(double error);
 /// "12.3 MiB".
 [[nodiscard]] std::string short_bytes(double bytes);
 

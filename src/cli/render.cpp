@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/frame_request.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/measure/budget_options.hpp"
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
 #include "cli/progress.hpp"
@@ -35,6 +36,7 @@ struct RenderRequest {
     int tile_size = 32;
     View view = default_view;
     double exposure = 0;
+    trade::Budget budget;
     bool float_pixels = false, stats = false, no_volatile_metadata = false;
 };
 
@@ -79,6 +81,7 @@ void add_options(CLI::App& command, RenderRequest& request) {
             [&](const std::string& text) { request.tile_size = static_cast<int>(parse_number("--tile", text, tile_key)); },
             "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it")
         ->type_name("N");
+    trade::add_budget_options(command, request.budget);
     add_frame_options(command, request.frame);
     add_flatten_options(command, request.frame);
 }
@@ -139,18 +142,32 @@ void print_summary(const PictureNames& names, const RenderReport& report, const 
                   short_seconds(report.stats.seconds) + ")");
 }
 
-int render(const RenderRequest& request) {
+int render(RenderRequest request) {
     RequestedScene scene = load_requested(request.frame);
     const FrameOptions asked = requested_frame(request, scene);
-    const KernelTable& kernels = find_kernels(request.frame.isa, scene.settings.precision);
+    static_cast<void>(find_kernels(request.frame.isa, scene.settings.precision)); // a name that does not exist ends here
     if (request.output && request.output->empty()) throw Error(ExitCode::usage, "--output: the name is empty");
     const PictureNames names = picture_names(request.output.value_or(""), request.frame.scene);
     probe_outputs(names); // before the work, not after it
-    const SceneArrays arrays = flatten_requested(request.frame, scene);
+    const trade::FixedKnobs fixed = trade::fixed_by(request.frame, request.float_pixels);
+    const bool picks = is_given(request.budget);
+    const SceneArrays arrays =
+        picks ? trade::flatten_for_trials(request.frame, scene, fixed) : flatten_requested(request.frame, scene);
 
     const InterruptScope interrupt;
     FrameOptions options = asked;
     options.stop = &interrupt.stop();
+    std::string budget;
+    if (picks) {
+        const trade::Bench bench{&arrays, &scene.description.camera, request.frame.isa, options, {}, &interrupt};
+        const trade::Choice base{scene.settings, request.float_pixels};
+        const trade::Pick pick = trade::pick_and_say(bench, base, fixed, request.budget, request.frame.quiet);
+        scene.settings = pick.choice.settings;
+        request.float_pixels = pick.choice.float_file;
+        budget = trade::record_of(pick, request.budget);
+    }
+    const KernelTable& kernels = find_kernels(
+        scene.settings.precision == Precision::reference && picks ? "auto" : request.frame.isa, scene.settings.precision);
     Frame frame = render_with_progress(request, kernels, arrays, scene, options);
     interrupt.check();
     warn_of_values(request, frame.film);
@@ -161,6 +178,7 @@ int render(const RenderRequest& request) {
                         .stats = frame.stats,
                         .isa = kernels.isa,
                         .width = kernels.width,
+                        .budget = budget,
                         .load_seconds = scene.load_seconds,
                         .flatten_seconds = arrays.bake_seconds,
                         .build_seconds = arrays.build_seconds};

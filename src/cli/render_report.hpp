@@ -15,7 +15,8 @@ struct RenderReport {
     FrameOptions options;
     FrameStats stats;
     std::string isa;
-    int width = 0; ///< rays per vector
+    int width = 0;      ///< rays per vector
+    std::string budget; ///< what the settings were picked for, and what was expected; empty: they were given
     double load_seconds = 0, flatten_seconds = 0, build_seconds = 0, write_seconds = 0;
 };
 

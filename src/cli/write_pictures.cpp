@@ -20,6 +20,16 @@ namespace {
 constexpr std::string_view not_written[] = {".jpg", ".jpeg", ".tif", ".tiff", ".bmp",  ".gif",  ".hdr", ".pic", ".tga",
                                             ".ppm", ".pgm",  ".pfm", ".pnm",  ".webp", ".avif", ".jxl", ".dds"};
 
+/// What a PNG says of itself: which settings made it, and what they were picked for.
+[[nodiscard]] std::vector<PngText> texts_of(const std::vector<ExrAttribute>& attributes) {
+    std::vector<PngText> texts;
+    for (const ExrAttribute& a : attributes)
+        if (const auto* text = std::get_if<std::string>(&a.value);
+            text && (a.name == "lanecast:settings" || a.name == "lanecast:budget"))
+            texts.push_back({a.name, *text});
+    return texts;
+}
+
 } // namespace
 
 PictureNames picture_names(const std::string& output, const std::filesystem::path& scene) {
@@ -62,7 +72,9 @@ void write_pictures(const PictureNames& names, const Film& film, const PictureOp
             exr->complete();
         }
         if (i == 1 && png) {
-            write_png(*png, tonemap(film, options.view, options.exposure, encoders));
+            Picture8 picture = tonemap(film, options.view, options.exposure, encoders);
+            picture.texts = texts_of(options.exr.attributes);
+            write_png(*png, picture);
             png->complete();
         }
     });

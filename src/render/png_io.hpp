@@ -6,14 +6,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace lanecast {
+
+/// A tEXt chunk: a key of 1 to 79 bytes of Latin-1, and its text.
+struct PngText {
+    std::string key, text;
+};
 
 /// Interleaved 8-bit RGB, row by row from the top.
 struct Picture8 {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb; ///< 3 * width * height
+    std::vector<PngText> texts{};
 };
 
 /// With sRGB, gAMA and cHRM chunks. Equal pictures give equal bytes. Throws Error (output); see OutputFile.

@@ -17,7 +17,7 @@ constexpr int depths[] = {0, 1, 2, 3, 4, 6, 8, 12, 16};
 constexpr double cutoffs[] = {1.0 / 16, 1.0 / 64, 1.0 / 256, 1.0 / 1024, 1.0 / 4096};
 constexpr double true_cutoff = 1.0 / 65536;
 constexpr int dearest_shadow_rays = 8; ///< per sample of the pixel, each with others
-constexpr int most_shadow_rays = 1024;  ///< of a pixel with one sample
+constexpr int most_shadow_rays = 1024; ///< of a pixel with one sample
 
 const KeySpec& key_of(const BlockSpec& block, std::string_view name) {
     return *std::ranges::find(block.keys, name, &KeySpec::name);

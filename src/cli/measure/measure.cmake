@@ -1,5 +1,7 @@
 # `lanecast measure`, and what `lanecast render --max-error` chooses by.
 target_sources(lanecast PRIVATE
+  cli/measure/budget.cpp
+  cli/measure/budget_options.cpp
   cli/measure/experiment.cpp
   cli/measure/knobs.cpp
   cli/measure/measure.cpp

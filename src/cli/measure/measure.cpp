@@ -4,6 +4,7 @@
 #include "cli/frame_request.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/machine.hpp"
+#include "cli/measure/budget_options.hpp"
 #include "cli/measure/report.hpp"
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
@@ -57,21 +58,12 @@ void probe_outputs(const MeasureRequest& request) {
         if (!file.empty()) const OutputFile probe(file);
 }
 
-/// Soft shadows are among the trials, whatever the scene asks for.
-SceneArrays flatten_for_trials(const FrameRequest& request, RequestedScene& scene, const FixedKnobs& fixed) {
-    const int own = scene.settings.soft_shadows;
-    if (!fixed[Knob::soft_shadows]) scene.settings.soft_shadows = std::max(own, 1);
-    SceneArrays arrays = flatten_requested(request, scene);
-    scene.settings.soft_shadows = own;
-    return arrays;
-}
-
 int measure(const MeasureRequest& request) {
     RequestedScene scene = load_requested(request.frame);
     static_cast<void>(find_kernels(request.frame.isa, Precision::balanced)); // a name that does not exist ends here
     probe_outputs(request);
     ExperimentOptions options = request.experiment;
-    options.fixed = fixed_knobs([&](const RenderSettings& settings) { return changed(settings, request.frame.changes); });
+    options.fixed = fixed_by(request.frame, false);
     options.tiles = request.quick ? request.tiles : 0;
     if (!request.frame.quiet) options.say = [](const std::string& text) { print_message("lanecast measure: " + text); };
     const SceneArrays arrays = flatten_for_trials(request.frame, scene, options.fixed);

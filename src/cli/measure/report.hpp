@@ -18,9 +18,6 @@ namespace lanecast::trade {
 /// Whether no other trial is both faster and closer.
 [[nodiscard]] bool is_on_front(const Report& report, std::size_t trial);
 
-/// Three digits; "0" for nothing.
-[[nodiscard]] std::string short_error(double error);
-
 /// A table as all reports show it. Cells are text; numbers stand on the right.
 struct Table {
     std::string title, note;

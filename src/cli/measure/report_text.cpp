@@ -3,7 +3,6 @@
 #include "cli/print.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace lanecast::trade {
 namespace {
@@ -95,12 +94,6 @@ Table ray_table(const Report& report) {
 
 bool is_on_front(const Report& report, std::size_t trial) {
     return std::find(report.front.begin(), report.front.end(), trial) != report.front.end();
-}
-
-std::string short_error(double error) {
-    char text[32];
-    std::snprintf(text, sizeof text, error != 0 && error < 1e-3 ? "%.2e" : "%.3g", error);
-    return text;
 }
 
 std::vector<Table> tables(const Report& report) {

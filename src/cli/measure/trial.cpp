@@ -23,7 +23,8 @@ namespace {
     for (const double v : by_tile) mean += v / n;
     for (const double v : by_tile) square += (v - mean) * (v - mean);
     if (n < 2) return 0;
-    return 2 * std::sqrt(square / (n - 1) / n * std::max(0.0, 1 - share_of_frame));
+    const double errors = n < 30 ? 2.3 : 2; // Student's t: few tiles tell their spread badly
+    return errors * std::sqrt(square / (n - 1) / n * std::max(0.0, 1 - share_of_frame));
 }
 
 [[nodiscard]] double process_time() {
@@ -141,7 +142,7 @@ double time_of_file(const Bench& bench, const std::vector<Film>& films, bool flo
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders) {
     const auto ladder = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
     if (ladder == ladders.end()) return;
-    constexpr double most_rays = 30;
+    constexpr double most_rays = 10;
     constexpr std::size_t tiles = 8;
     Bench few = bench;
     few.options.width = bench.sample.width;

@@ -55,10 +55,11 @@ void round_as_file(std::vector<Film>& films, bool float_file);
 [[nodiscard]] double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file);
 
 /// Where glass and mirrors face each other, rays without a cutoff are without end: makes the smallest cutoff the truth that keeps
-/// them to thirty mirrored and transmitted ones per camera ray, on a few tiles.
+/// them to ten mirrored and transmitted ones per camera ray, on a few tiles.
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders);
 
 /// The truth again with two thirds of its samples per side and of its shadow rays, four times its cutoff, in float.
+inline constexpr double second_share = 2.0 / 3;
 [[nodiscard]] Choice second_truth(const Choice& truth);
 
 /// From the sample to the frame.

@@ -22,6 +22,10 @@ public:
     [[nodiscard]] const Step& tried(const Choice& choice);
     [[nodiscard]] const ReferencePicture& reference() const { return reference_; }
     [[nodiscard]] const Bench& bench() const { return bench_; }
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (const auto& [name, step] : steps_) visit(step);
+    }
     [[nodiscard]] std::size_t trials() const { return steps_.size(); }
 
 private:

@@ -1,0 +1,183 @@
+#include "cli/measure/budget.hpp"
+
+#include "cli/print.hpp"
+#include "scene/error.hpp"
+#include "scene/text_tools.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace lanecast::trade {
+namespace {
+
+/// Small ones, because neighbours err alike: many places tell more than many pixels.
+constexpr int sampled_tile_size = 16;
+constexpr std::size_t most_tiles = 160, least_tiles = 40;
+constexpr double reference_seconds = 10; ///< processor time that a reference may take, as long as there are enough tiles
+constexpr double reference_slowness = 8; ///< of double and one lane, over balanced
+/// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
+/// in common with any of the choices.
+constexpr int truth_samples[] = {11, 16};
+/// The largest error of a frame, over that of a small part of it. Measured: docs/accuracy.md.
+constexpr double unseen_maximum = 0.5;
+
+/// The error of a step, as the frame may have it.
+struct Judge {
+    ErrorMetric metric;
+    PictureError second; ///< of another picture of the truth
+    double share;        ///< of the frame that is sampled
+
+    [[nodiscard]] double expected(const PictureError& e) const {
+        return metric == ErrorMetric::rmse ? e.rmse : metric == ErrorMetric::max ? e.largest : e.flip;
+    }
+    /// Of the reference itself: the second picture, of two thirds of the samples, has about twice its error.
+    [[nodiscard]] double uncertain() const { return expected(second) / 2; }
+    [[nodiscard]] double at_most(const PictureError& e) const {
+        switch (metric) {
+        case ErrorMetric::rmse:
+            return std::hypot(e.rmse_above, uncertain());
+        case ErrorMetric::max:
+            return e.largest * (1 + unseen_maximum * (1 - share)) + uncertain();
+        case ErrorMetric::flip:
+            return e.flip_above + uncertain();
+        }
+        return 0;
+    }
+    /// What adds up.
+    [[nodiscard]] double badness(const PictureError& e) const {
+        return metric == ErrorMetric::flip ? e.flip : expected(e) * expected(e);
+    }
+};
+
+struct Search {
+    std::vector<Ladder> ladders;
+    Choice truth;
+    Laboratory laboratory;
+    Judge judge;
+};
+
+/// As many tiles as a reference can be afforded of: a frame is judged by a few of its tiles where all its rays are expensive.
+[[nodiscard]] std::size_t affordable_tiles(Bench bench, const Choice& truth) {
+    constexpr std::size_t tried_tiles = 16;
+    bench.sample = spread_tiles(bench.options, tried_tiles);
+    Choice rough = second_truth(truth);
+    AntiAliasing& aa = rough.settings.anti_aliasing;
+    const int side = aa.mode == AntiAliasMode::grid ? aa.samples : 1;
+    aa.samples = std::min(aa.samples, 2);
+    const double samples = side / static_cast<double>(std::max(1, aa.mode == AntiAliasMode::grid ? aa.samples : 1));
+    constexpr double tile_pixels = sampled_tile_size * sampled_tile_size;
+    const double shadow = second_share * second_share * second_share; // of the truth's samples, and of their shadow rays
+    const RenderedSample rendered = render(bench, rough.settings);
+    const double seconds =
+        rendered.seconds / bench.sample.pixels() * tile_pixels * samples * samples / shadow * reference_slowness;
+    return std::clamp(static_cast<std::size_t>(reference_seconds / seconds), least_tiles, most_tiles);
+}
+
+[[nodiscard]] Search prepare(Bench bench, const Choice& base, const FixedKnobs& fixed, const Budget& budget, int samples) {
+    std::vector<Ladder> ladders = make_ladders(*bench.scene, base, fixed, bench.isa, samples);
+    bound_truth(bench, base, ladders);
+    const Choice truth = true_choice(base, ladders);
+    bench.sample = spread_tiles(bench.options, affordable_tiles(bench, truth));
+    Laboratory laboratory(bench, render_reference(bench, truth));
+    const RenderedSample second = render(bench, second_truth(truth).settings);
+    const PictureError apart = error_of(second.films, laboratory.reference(), bench.sample);
+    return {std::move(ladders),
+            truth,
+            std::move(laboratory),
+            {budget.metric, apart, bench.sample.pixels() / bench.sample.frame_pixels}};
+}
+
+/// Knobs of the frame; what the file holds is decided apart, because it takes no time of the frame.
+[[nodiscard]] std::vector<Ladder> without_file(const std::vector<Ladder>& ladders) {
+    std::vector<Ladder> rest;
+    std::ranges::copy_if(ladders, std::back_inserter(rest), [](const Ladder& l) { return l.knob != Knob::file; });
+    return rest;
+}
+
+[[nodiscard]] bool turns_file(const std::vector<Ladder>& ladders) {
+    return std::ranges::find(ladders, Knob::file, &Ladder::knob) != ladders.end();
+}
+
+[[nodiscard]] Step within_error(Search& search, const Choice& base, const Budget& budget) {
+    const double limit = *budget.max_error;
+    const Judge& judge = search.judge;
+    const auto accept = [&](const Step& step) { return judge.at_most(step.error) <= limit; };
+    Choice from = dearest_choice(base, search.ladders);
+    if (turns_file(search.ladders)) {
+        from.float_file = false;
+        // halves where their rounding is a small part of the error
+        if (judge.at_most(search.laboratory.tried(from).error) > 0.7 * limit) from.float_file = true;
+    }
+    if (!accept(search.laboratory.tried(from))) {
+        const double seconds = search.laboratory.reference().seconds * frame_scale(search.laboratory.bench().sample);
+        const Step truth{search.truth, {}, seconds};
+        if (accept(truth)) return truth;
+        throw Error(ExitCode::usage, "--max-error " + number_text(limit) +
+                                         ": no settings are known to keep it; the reference itself is " + "certain to " +
+                                         short_error(judge.uncertain()));
+    }
+    return walk(
+               search.laboratory, without_file(search.ladders), from, [&](const PictureError& e) { return judge.badness(e); },
+               accept)
+        .back();
+}
+
+[[nodiscard]] Step within_time(Search& search, const Choice& base, const Budget& budget, double threads) {
+    const double limit = *budget.max_seconds;
+    Choice from = dearest_choice(base, search.ladders);
+    const std::vector<Step> steps = walk(
+        search.laboratory, without_file(search.ladders), from, [&](const PictureError& e) { return search.judge.badness(e); },
+        [](const Step&) { return true; });
+    const auto in_time = [&](const Step& step) { return step.seconds / threads <= limit; };
+    const Step* best = nullptr;
+    search.laboratory.for_each([&](const Step& step) {
+        const bool better = best == nullptr || search.judge.expected(step.error) < search.judge.expected(best->error);
+        if (in_time(step) && better) best = &step;
+    });
+    if (best != nullptr) return *best;
+    throw Error(ExitCode::usage, "--max-time " + number_text(limit) +
+                                     ": no settings are that fast; the fastest tried takes about " +
+                                     short_seconds(steps.back().seconds / threads));
+}
+
+} // namespace
+
+Pick pick_settings(Bench bench, const Choice& base, const FixedKnobs& fixed, const Budget& budget) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    bench.options.tile_size = sampled_tile_size;
+    bench.sample = spread_tiles(bench.options, most_tiles);
+    Search search = prepare(bench, base, fixed, budget, truth_samples[0]);
+    const bool sampled = !fixed[Knob::anti_aliasing];
+    if (budget.max_error && sampled && search.judge.uncertain() > *budget.max_error / 4)
+        search = prepare(bench, base, fixed, budget, truth_samples[1]);
+    const TileSample& sample = search.laboratory.bench().sample;
+    const double threads = std::min<double>(bench.options.threads, static_cast<double>(sample.tiles.size()));
+    const Step step = budget.max_error ? within_error(search, base, budget) : within_time(search, base, budget, threads);
+    Pick pick;
+    pick.choice = step.choice;
+    pick.expected = search.judge.expected(step.error);
+    pick.at_most = search.judge.at_most(step.error);
+    pick.seconds = step.seconds / threads;
+    pick.tiles = sample.tiles.size();
+    pick.trials = search.laboratory.trials();
+    pick.search_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    pick.description = describe(step.choice, search.ladders);
+    pick.reference = describe(search.truth, search.ladders);
+    return pick;
+}
+
+std::string as_options(const Choice& choice) {
+    const RenderSettings& s = choice.settings;
+    const AntiAliasMode mode = s.anti_aliasing.mode;
+    const std::string aa = label_of(Knob::anti_aliasing, choice);
+    std::string text = "--precision " + label_of(Knob::precision, choice) + " --aa " + aa.substr(0, aa.find(' '));
+    if (mode == AntiAliasMode::edge || mode == AntiAliasMode::grid)
+        text += " --aa-samples " + std::to_string(s.anti_aliasing.samples);
+    text += " --soft-shadows " + label_of(Knob::soft_shadows, choice) + " --depth " + label_of(Knob::depth, choice) +
+            " --cutoff " + label_of(Knob::cutoff, choice);
+    return text + (choice.float_file ? " --float" : "");
+}
+
+} // namespace lanecast::trade
