@@ -19,7 +19,7 @@ constexpr double reference_slowness = 8; ///< of double and one lane, over balan
 /// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
 /// in common with any of the choices.
 constexpr int truth_samples[] = {11, 16};
-/// The largest error of a frame, over that of a small part of it. Measured: docs/accuracy.md.
+/// The largest error of a frame, over that of a small part of it. Chosen, not measured.
 constexpr double unseen_maximum = 0.5;
 
 /// The error of a step, as the frame may have it.

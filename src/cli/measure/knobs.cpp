@@ -188,6 +188,14 @@ void set_true_cutoff(Ladder& ladder, double cutoff, const Choice& base) {
     ladder.truth = ladder.alone = number(&RenderSettings::cutoff, cutoff);
 }
 
+void set_true_depth(Ladder& ladder, int depth, const Choice& base) {
+    std::erase_if(ladder.values, [&](const KnobValue& value) {
+        const int own = with(base, value).settings.depth;
+        return own >= depth && own != base.settings.depth;
+    });
+    ladder.truth = ladder.alone = number(&RenderSettings::depth, depth);
+}
+
 Choice bounded(Choice choice, const Choice& base, const Choice& truth) {
     if (choice.settings.depth > base.settings.depth)
         choice.settings.cutoff = std::max(choice.settings.cutoff, truth.settings.cutoff);

@@ -50,6 +50,8 @@ struct Ladder {
 
 /// Another cutoff as the truth: smaller ones, but for the scene's own, leave the ladder.
 void set_true_cutoff(Ladder& ladder, double cutoff, const Choice& base);
+/// The same of the depth: larger ones leave.
+void set_true_depth(Ladder& ladder, int depth, const Choice& base);
 
 /// All knobs at their truth.
 [[nodiscard]] Choice true_choice(const Choice& base, const std::vector<Ladder>& ladders);

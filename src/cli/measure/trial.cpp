@@ -140,8 +140,8 @@ double time_of_file(const Bench& bench, const std::vector<Film>& films, bool flo
 }
 
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders) {
-    const auto ladder = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
-    if (ladder == ladders.end()) return;
+    const auto depth = std::ranges::find(ladders, Knob::depth, &Ladder::knob);
+    const auto cutoff = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
     constexpr double most_rays = 10;
     constexpr std::size_t tiles = 8;
     Bench few = bench;
@@ -152,16 +152,34 @@ void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& la
     settings.precision = Precision::balanced;
     settings.anti_aliasing.mode = AntiAliasMode::off;
     settings.soft_shadows = 0;
-    settings.shadows = false;
-    double cutoff = 1.0 / 256;
-    for (double next = cutoff; next >= 1.0 / 65536; next /= 4) {
-        settings.cutoff = next;
-        const TileStats stats = render(few, settings).stats;
+    settings.transmissive_shadows = false;
+    const auto affordable = [&](const RenderSettings& tried) {
+        const TileStats stats = render(few, tried).stats;
         const auto rays = [&](RayKind kind) { return static_cast<double>(stats.kinds[static_cast<int>(kind)].rays); };
-        if (rays(RayKind::reflection) + rays(RayKind::refraction) > most_rays * rays(RayKind::primary)) break;
-        cutoff = next;
+        return rays(RayKind::reflection) + rays(RayKind::refraction) <= most_rays * rays(RayKind::primary);
+    };
+    // In small steps: coloured glass that mirrors may double its rays at every level, whatever the cutoff.
+    if (cutoff != ladders.end()) settings.cutoff = 1.0 / 256;
+    if (depth != ladders.end()) {
+        const int deepest = settings.depth;
+        int last = base.settings.depth;
+        for (int next = last; next <= deepest; next += next < 16 ? 2 : 8) {
+            settings.depth = next;
+            if (!affordable(settings)) break;
+            last = next;
+        }
+        if (last + 8 > deepest) last = deepest;
+        set_true_depth(*depth, last, base);
+        settings.depth = last;
     }
-    set_true_cutoff(*ladder, cutoff, base);
+    if (cutoff == ladders.end()) return;
+    double smallest = settings.cutoff;
+    for (double next = smallest / 2; next >= 1.0 / 65536; next /= 2) {
+        settings.cutoff = next;
+        if (!affordable(settings)) break;
+        smallest = next;
+    }
+    set_true_cutoff(*cutoff, smallest, base);
 }
 
 Choice second_truth(const Choice& truth) {

@@ -54,8 +54,8 @@ void round_as_file(std::vector<Film>& films, bool float_file);
 /// Processor time of encoding a file with these pixels, scaled to the frame.
 [[nodiscard]] double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file);
 
-/// Where glass and mirrors face each other, rays without a cutoff are without end: makes the smallest cutoff the truth that keeps
-/// them to ten mirrored and transmitted ones per camera ray, on a few tiles.
+/// Where glass and mirrors face each other, rays are nearly without end: makes the largest depth and then the smallest cutoff the
+/// truth that keep them to ten mirrored and transmitted ones per camera ray, on a few tiles.
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders);
 
 /// The truth again with two thirds of its samples per side and of its shadow rays, four times its cutoff, in float.
