@@ -144,7 +144,7 @@ void print_summary(const PictureNames& names, const RenderReport& report, const 
 
 int render(RenderRequest request) {
     RequestedScene scene = load_requested(request.frame);
-    const FrameOptions asked = requested_frame(request, scene);
+    FrameOptions options = requested_frame(request, scene);
     static_cast<void>(find_kernels(request.frame.isa, scene.settings.precision)); // a name that does not exist ends here
     if (request.output && request.output->empty()) throw Error(ExitCode::usage, "--output: the name is empty");
     const PictureNames names = picture_names(request.output.value_or(""), request.frame.scene);
@@ -154,12 +154,9 @@ int render(RenderRequest request) {
     const SceneArrays arrays =
         picks ? trade::flatten_for_trials(request.frame, scene, fixed) : flatten_requested(request.frame, scene);
 
-    const InterruptScope interrupt;
-    FrameOptions options = asked;
-    options.stop = &interrupt.stop();
     std::string budget;
     if (picks) {
-        const trade::Bench bench{&arrays, &scene.description.camera, request.frame.isa, options, {}, &interrupt};
+        const trade::Bench bench{&arrays, &scene.description.camera, request.frame.isa, options, {}};
         const trade::Choice base{scene.settings, request.float_pixels};
         const trade::Pick pick = trade::pick_and_say(bench, base, fixed, request.budget, request.frame.quiet);
         scene.settings = pick.choice.settings;
@@ -168,6 +165,8 @@ int render(RenderRequest request) {
     }
     const KernelTable& kernels = find_kernels(
         scene.settings.precision == Precision::reference && picks ? "auto" : request.frame.isa, scene.settings.precision);
+    const InterruptScope interrupt;
+    options.stop = &interrupt.stop();
     Frame frame = render_with_progress(request, kernels, arrays, scene, options);
     interrupt.check();
     warn_of_values(request, frame.film);

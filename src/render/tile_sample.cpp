@@ -70,6 +70,21 @@ TileSample spread_tiles(const FrameOptions& options, std::size_t count) {
     return sample;
 }
 
+TileSample in_tiles_of(const TileSample& sample, int tile_size) {
+    TileSample smaller = sample;
+    smaller.tile_size = std::min(sample.tile_size, tile_size);
+    smaller.tiles.clear();
+    smaller.window_of.clear();
+    for (std::size_t i = 0; i < sample.tiles.size(); ++i) {
+        const TileGrid grid(sample.tiles[i], smaller.tile_size);
+        for (std::size_t k = 0; k < grid.count(); ++k) {
+            smaller.tiles.push_back(grid.at(k));
+            smaller.window_of.push_back(sample.window_of[i]);
+        }
+    }
+    return smaller;
+}
+
 RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,
                              const RenderSettings& settings, const FrameOptions& options, const TileSample& sample) {
     RenderedSample rendered;
@@ -82,9 +97,8 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
     const PixelOrder order = pixel_order(settings, same);
     const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.threads), sample.tiles.size()));
 
-    std::atomic<std::size_t> next{0}, done{0};
+    std::atomic<std::size_t> next{0};
     std::mutex mutex; // of rendered.stats and rendered.seconds
-    const auto stopped = [&] { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); };
     parallel_for(threads, static_cast<std::size_t>(threads), [&](std::size_t) {
         RenderJob job = whole;
         job.pixel_order[0] = order.x.data();
@@ -93,19 +107,17 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
         const AlignedBytes scratch = make_aligned_bytes(kernels.scratch_bytes(job));
         TileStats stats{};
         double seconds = 0;
-        for (std::size_t i = next.fetch_add(1); i < sample.tiles.size() && !stopped(); i = next.fetch_add(1)) {
+        for (std::size_t i = next.fetch_add(1); i < sample.tiles.size(); i = next.fetch_add(1)) {
             job.film = view(rendered.films[sample.window_of[i]]);
             const double begin = processor_time();
             const TileStats tile = kernels.render_tile(job, sample.tiles[i], scratch.get());
             seconds += processor_time() - begin;
             add(stats, tile);
-            done.fetch_add(1);
         }
         const std::lock_guard lock(mutex);
         add(rendered.stats, stats);
         rendered.seconds += seconds;
     });
-    rendered.complete = done.load() == sample.tiles.size();
     return rendered;
 }
 

@@ -29,14 +29,16 @@ struct TileSample {
 /// `count` tiles spread evenly over it, each with a film of its own; all of them if there are no more.
 [[nodiscard]] TileSample spread_tiles(const FrameOptions& options, std::size_t count);
 
+/// The same windows in tiles of at most this size.
+[[nodiscard]] TileSample in_tiles_of(const TileSample& sample, int tile_size);
+
 struct RenderedSample {
     std::vector<Film> films; ///< by window
     TileStats stats{};       ///< of all tiles
     double seconds = 0;      ///< processor time of the threads inside tiles
-    bool complete = false;   ///< false: stopped
 };
 
-/// As `render_frame` would. options.crop does not count. Throws std::bad_alloc.
+/// As `render_frame` would. options.crop and options.stop do not count. Throws std::bad_alloc.
 [[nodiscard]] RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera,
                                            const RenderSettings& settings, const FrameOptions& options, const TileSample& sample);
 

@@ -8,6 +8,7 @@ lanecast_test(test_measure LABELS unit
   ../src/cli/measure/experiment.cpp
   ../src/cli/measure/knobs.cpp
   ../src/cli/measure/ray_errors.cpp
+  ../src/cli/measure/sampling.cpp
   ../src/cli/measure/trial.cpp
   ../src/cli/measure/walk.cpp
   ../src/cli/parse_value.cpp

@@ -13,7 +13,7 @@ namespace {
 const std::string small = small_scene().string();
 
 std::vector<std::string> quick(std::vector<std::string> more) {
-    more.insert(more.begin(), {"measure", small, "--quick", "--tiles", "2", "--repetitions", "1", "--reference-samples", "4",
+    more.insert(more.begin(), {"measure", small, "--tiles", "2", "--repetitions", "1", "--reference-samples", "4",
                                "--rays", "2000"});
     return more;
 }
@@ -86,6 +86,7 @@ TEST_CASE("knobs set by hand are not turned") {
     CHECK(lines_with(outcome.out, "depth  ") > 5);
     for (const char* knob : {"anti-aliasing  ", "soft shadows  ", "cutoff  "}) CHECK(lines_with(outcome.out, knob) == 0);
     CHECK(contains(outcome.out, "\nreference: depth 64, float, in double;"));
+    CHECK(contains(outcome.out, " On no front here: "));
 }
 
 TEST_CASE("what cannot be measured is refused in one line") {
@@ -100,6 +101,7 @@ TEST_CASE("what cannot be measured is refused in one line") {
     refused({"measure", "/nowhere/scene.json"}, 3);
     refused({"measure", small, "--isa", "neon"}, 2);
     refused({"measure", small, "--repetitions", "0"}, 2);
+    refused({"measure", small, "--quick", "--tiles", "2"}, 2);
     refused({"measure", small, "--reference-samples", "1"}, 2);
     refused({"measure", small, "--reference-samples", "65"}, 2);
     refused({"measure", small, "--tiles", "2.5"}, 2);
@@ -110,11 +112,22 @@ TEST_CASE("what cannot be measured is refused in one line") {
     refused({"measure", small, "--plot", "/nowhere/m.svg"}, 5);
 }
 
-TEST_CASE("interrupted, it writes nothing") {
+TEST_CASE("--quick samples the frame by what its reference costs, and says what it sampled") {
+    const Outcome outcome = run({"measure", small, "--quick", "--size", "4096x4096", "--repetitions", "1"}, {.seconds = 600});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(contains(outcome.out, " spread over the frame, "));
+    CHECK(contains(outcome.err, " spread over the frame, "));
+    CHECK(contains(outcome.out, "grid 11, "));
+}
+
+TEST_CASE("interrupted in the middle of a picture in double, it ends at once and leaves the old files") {
     const TemporaryDirectory directory;
+    put(directory.path / "m.json", "old");
     const Outcome outcome = run({"measure", small, "--size", "2048x2048", "--json", "m.json"},
-                                {.directory = directory.path, .signal_at = "the reference"});
+                                {.directory = directory.path, .signal_at = "the reference", .seconds = 20});
     CHECK(outcome.code == 130);
     CHECK(outcome.out.empty());
-    CHECK(names_in(directory.path).empty());
+    CHECK(content_of(directory.path / "m.json") == "old");
+    CHECK(names_in(directory.path).size() == 1);
 }

@@ -1,5 +1,6 @@
 #include "cli/measure/budget.hpp"
 
+#include "cli/measure/sampling.hpp"
 #include "cli/print.hpp"
 #include "scene/error.hpp"
 #include "scene/text_tools.hpp"
@@ -11,11 +12,8 @@
 namespace lanecast::trade {
 namespace {
 
-/// Small ones, because neighbours err alike: many places tell more than many pixels.
-constexpr int sampled_tile_size = 16;
-constexpr std::size_t most_tiles = 160, least_tiles = 40;
-constexpr double reference_seconds = 10; ///< processor time that a reference may take, as long as there are enough tiles
-constexpr double reference_slowness = 8; ///< of double and one lane, over balanced
+constexpr double reference_seconds = 5; ///< processor time per thread that the reference may take
+constexpr std::size_t least_tiles = 64, most_tiles = 160;
 /// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
 /// in common with any of the choices.
 constexpr int truth_samples[] = {11, 16};
@@ -57,30 +55,15 @@ struct Search {
     Judge judge;
 };
 
-/// As many tiles as a reference can be afforded of: a frame is judged by a few of its tiles where all its rays are expensive.
-[[nodiscard]] std::size_t affordable_tiles(Bench bench, const Choice& truth) {
-    constexpr std::size_t tried_tiles = 16;
-    bench.sample = spread_tiles(bench.options, tried_tiles);
-    Choice rough = second_truth(truth);
-    AntiAliasing& aa = rough.settings.anti_aliasing;
-    const int side = aa.mode == AntiAliasMode::grid ? aa.samples : 1;
-    aa.samples = std::min(aa.samples, 2);
-    const double samples = side / static_cast<double>(std::max(1, aa.mode == AntiAliasMode::grid ? aa.samples : 1));
-    constexpr double tile_pixels = sampled_tile_size * sampled_tile_size;
-    const double shadow = second_share * second_share * second_share; // of the truth's samples, and of their shadow rays
-    const RenderedSample rendered = render(bench, rough.settings);
-    const double seconds =
-        rendered.seconds / bench.sample.pixels() * tile_pixels * samples * samples / shadow * reference_slowness;
-    return std::clamp(static_cast<std::size_t>(reference_seconds / seconds), least_tiles, most_tiles);
-}
-
 [[nodiscard]] Search prepare(Bench bench, const Choice& base, const FixedKnobs& fixed, const Budget& budget, int samples) {
     std::vector<Ladder> ladders = make_ladders(*bench.scene, base, fixed, bench.isa, samples);
     bound_truth(bench, base, ladders);
     const Choice truth = true_choice(base, ladders);
-    bench.sample = spread_tiles(bench.options, affordable_tiles(bench, truth));
+    bench.sample = affordable_sample(
+        bench, {truth},
+        {.seconds = reference_seconds * bench.options.threads, .least_tiles = least_tiles, .most_tiles = most_tiles});
     Laboratory laboratory(bench, render_reference(bench, truth));
-    const RenderedSample second = render(bench, second_truth(truth).settings);
+    const RenderedSample second = render(bench, second_truth(truth, ladders).settings);
     const PictureError apart = error_of(second.films, laboratory.reference(), bench.sample);
     return {std::move(ladders),
             truth,
@@ -146,8 +129,6 @@ struct Search {
 Pick pick_settings(Bench bench, const Choice& base, const FixedKnobs& fixed, const Budget& budget) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
-    bench.options.tile_size = sampled_tile_size;
-    bench.sample = spread_tiles(bench.options, most_tiles);
     Search search = prepare(bench, base, fixed, budget, truth_samples[0]);
     const bool sampled = !fixed[Knob::anti_aliasing];
     if (budget.max_error && sampled && search.judge.uncertain() > *budget.max_error / 4)
@@ -164,7 +145,7 @@ Pick pick_settings(Bench bench, const Choice& base, const FixedKnobs& fixed, con
     pick.trials = search.laboratory.trials();
     pick.search_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     pick.description = describe(step.choice, search.ladders);
-    pick.reference = describe(search.truth, search.ladders);
+    pick.reference = as_options(search.truth);
     return pick;
 }
 

@@ -25,10 +25,10 @@ struct Pick {
     std::size_t tiles = 0, trials = 0;
     double search_seconds = 0;
     std::string description; ///< of the knobs that were turned
-    std::string reference;   ///< what the error is measured against
+    std::string reference;   ///< what the error is measured against, as options
 };
 
-/// `bench`: all but its sample. Throws Error (usage) where nothing keeps the budget, Interrupted.
+/// `bench`: all but its sample. Throws Error (usage) where nothing keeps the budget.
 [[nodiscard]] Pick pick_settings(Bench bench, const Choice& base, const FixedKnobs& fixed, const Budget& budget);
 
 /// "--precision balanced --aa edge ...": options that give these settings whatever the scene's own are.

@@ -15,8 +15,6 @@ namespace {
 constexpr KeySpec error_key{.name = "error", .range = {.low = 0, .low_open = true}};
 constexpr KeySpec time_key{.name = "time", .range = {.low = 0, .high = 1e9, .low_open = true}};
 
-[[nodiscard]] std::string metric_words() { return "rmse|max|flip"; }
-
 /// "max-error 0.01 rmse"
 [[nodiscard]] std::string words_of(const Budget& budget) {
     return budget.max_error ? "max-error " + number_text(*budget.max_error) + " " + metric_names[static_cast<int>(budget.metric)]
@@ -52,7 +50,8 @@ void add_budget_options(CLI::App& command, Budget& budget) {
                 budget.metric = static_cast<ErrorMetric>(found - std::begin(metric_names));
             },
             "What the error is: root of the mean square, largest difference of a channel, or mean FLIP; default rmse")
-        ->type_name(metric_words())
+        ->type_name("rmse|max|flip")
+        ->needs(error)
         ->group(group);
     command
         .add_option_function<std::string>(

@@ -1,11 +1,13 @@
 #include "cli/measure/experiment.hpp"
 
+#include "cli/measure/sampling.hpp"
 #include "cli/print.hpp"
 #include "cli/settings_options.hpp"
 #include "render/dispatch.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace lanecast::trade {
@@ -67,6 +69,18 @@ struct OwnReferences {
     std::map<Knob, const ReferencePicture*> of;
 };
 
+/// The pictures in double that all errors are measured against.
+std::vector<Choice> truths(const Report& report) {
+    std::map<std::string, Choice> choices{{text_of(report.truth), report.truth}};
+    for (const Ladder& ladder : report.ladders) {
+        const Choice choice = with_truth(report, ladder);
+        choices.emplace(text_of(choice), choice);
+    }
+    std::vector<Choice> list;
+    for (const auto& [text, choice] : choices) list.push_back(choice);
+    return list;
+}
+
 OwnReferences own_references(const Bench& bench, const Report& report) {
     OwnReferences own;
     for (const Ladder& ladder : report.ladders) {
@@ -78,12 +92,17 @@ OwnReferences own_references(const Bench& bench, const Report& report) {
     return own;
 }
 
-/// All errors, from one rendering of each trial. What a file rounds away is the error of the knob `file` alone.
-void judge(const Bench& bench, Report& report, const ReferencePicture& reference) {
+/// Processor time of each repetition of a trial, of the sample.
+using Times = std::vector<std::vector<double>>;
+
+/// All errors, from the first rendering of each trial. What a file rounds away is the error of the knob `file` alone.
+Times judge(const Bench& bench, Report& report, const ReferencePicture& reference) {
+    Times seconds(report.trials.size());
     const OwnReferences own = own_references(bench, report);
     for (std::size_t i = 0; i < report.trials.size(); ++i) {
         Trial& trial = report.trials[i];
         RenderedSample rendered = render(bench, trial.choice.settings);
+        seconds[i].push_back(rendered.seconds);
         trial.rays = static_cast<double>(ray_count(rendered.stats)) * frame_scale(bench.sample);
         const auto judge_rows = [&](bool of_file) {
             for (KnobRow& row : report.knobs)
@@ -95,20 +114,27 @@ void judge(const Bench& bench, Report& report, const ReferencePicture& reference
         judge_rows(true);
         trial.error = error_of(rendered.films, reference, bench.sample);
     }
+    return seconds;
 }
 
-/// All trials in turn, in every repetition: a machine that slows down slows all of them down.
-void time_trials(const Bench& bench, Report& report) {
-    std::vector<std::vector<double>> seconds(report.trials.size());
-    for (int r = 0; r < report.repetitions; ++r)
-        for (std::size_t i = 0; i < report.trials.size(); ++i)
-            seconds[i].push_back(render(bench, report.trials[i].choice.settings).seconds * frame_scale(bench.sample));
+/// All trials in turn, in every repetition: a machine that slows down slows all of them down. `most_seconds`: no repetition is
+/// begun that would probably end later.
+void time_trials(const Bench& bench, Report& report, Times seconds, int repetitions, double most_seconds) {
+    double spent = 0;
+    for (const std::vector<double>& first : seconds) spent += first.front();
+    const double one = spent;
+    for (report.repetitions = 1; report.repetitions < repetitions && spent + one <= most_seconds; ++report.repetitions)
+        for (std::size_t i = 0; i < report.trials.size(); ++i) {
+            seconds[i].push_back(render(bench, report.trials[i].choice.settings).seconds);
+            spent += seconds[i].back();
+        }
+    const double scale = frame_scale(bench.sample);
     for (std::size_t i = 0; i < report.trials.size(); ++i) {
         std::sort(seconds[i].begin(), seconds[i].end());
         Trial& trial = report.trials[i];
-        trial.seconds = seconds[i][seconds[i].size() / 2];
-        trial.low = seconds[i].front();
-        trial.high = seconds[i].back();
+        trial.seconds = scale * seconds[i][seconds[i].size() / 2];
+        trial.low = scale * seconds[i].front();
+        trial.high = scale * seconds[i].back();
     }
 }
 
@@ -121,32 +147,46 @@ void time_files(const Bench& bench, Report& report, const ReferencePicture& refe
 }
 
 void judge_truth(const Bench& bench, Report& report, const ReferencePicture& reference) {
-    const Choice second = second_truth(report.truth);
+    const Choice second = second_truth(report.truth, report.ladders);
     const RenderedSample rendered = render(bench, second.settings);
     report.second_choice = describe(second, report.ladders);
     report.second = error_of(rendered.films, reference, bench.sample);
 }
 
+TileSample sample_of(const Bench& bench, const Report& report, const ExperimentOptions& options) {
+    if (options.tiles) return spread_tiles(bench.options, *options.tiles);
+    if (!options.seconds) return every_tile(bench.options);
+    return affordable_sample(bench, truths(report),
+                             {.seconds = *options.seconds * bench.options.threads, .least_tiles = 32, .most_tiles = 1024});
+}
+
 } // namespace
 
+std::string sample_text(const Report& report) {
+    const std::string size = std::to_string(report.tile_size);
+    return report.whole ? "every tile"
+                        : counted(report.tiles, "tile") + " of " + size + "x" + size + " spread over the frame, " +
+                              fixed(100 * report.share, 1) + " % of its pixels";
+}
+
 Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& options) {
-    bench.sample = options.tiles == 0 ? every_tile(bench.options) : spread_tiles(bench.options, options.tiles);
     Report report;
-    report.width = bench.sample.width;
-    report.height = bench.sample.height;
-    report.threads = bench.options.threads;
-    report.repetitions = options.repetitions;
-    report.tiles = bench.sample.tiles.size();
-    report.whole = bench.sample.windows.size() == 1;
-    report.share = bench.sample.pixels() / bench.sample.frame_pixels;
     report.base = base;
     report.ladders = make_ladders(*bench.scene, base, options.fixed, bench.isa, options.truth_samples);
     bound_truth(bench, base, report.ladders);
     report.truth = true_choice(base, report.ladders);
+    bench.sample = sample_of(bench, report, options);
+    report.width = bench.sample.width;
+    report.height = bench.sample.height;
+    report.threads = bench.options.threads;
+    report.tiles = bench.sample.tiles.size();
+    report.tile_size = bench.sample.tile_size;
+    report.whole = bench.sample.windows.size() == 1;
+    report.share = bench.sample.pixels() / bench.sample.frame_pixels;
     add_trial(report, base);
     list_knobs(report);
 
-    options.say("the reference: " + describe(report.truth, report.ladders));
+    options.say("the reference: " + describe(report.truth, report.ladders) + "; " + sample_text(report));
     const ReferencePicture reference = render_reference(bench, report.truth);
     report.truth_seconds = reference.seconds * frame_scale(bench.sample);
     judge_truth(bench, report, reference);
@@ -157,9 +197,11 @@ Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& 
     Laboratory laboratory(spread, cut(reference, spread.sample));
     list_walk(report, laboratory);
 
-    options.say(counted(report.trials.size(), "choice") + ", " + std::to_string(options.repetitions) + " times each");
-    judge(bench, report, reference);
-    time_trials(bench, report);
+    options.say(counted(report.trials.size(), "choice") + ", up to " + std::to_string(options.repetitions) + " times each");
+    Times times = judge(bench, report, reference);
+    const double most_seconds =
+        options.seconds ? *options.seconds * bench.options.threads : std::numeric_limits<double>::infinity();
+    time_trials(bench, report, std::move(times), options.repetitions, most_seconds);
     time_files(bench, report, reference);
     std::vector<double> seconds, errors;
     for (const Trial& trial : report.trials) {

@@ -34,6 +34,7 @@ struct Report {
     std::string scene, cpu, compiler;
     int width = 0, height = 0, threads = 1, repetitions = 0;
     std::size_t tiles = 0;
+    int tile_size = 0;
     bool whole = true; ///< every tile; else times are scaled to the frame
     double share = 1;  ///< of the frame's pixels that were rendered
     std::vector<Ladder> ladders;
@@ -49,17 +50,21 @@ struct Report {
     std::vector<RayErrors> rays;
 };
 
+/// "40 tiles of 16x16 spread over the frame, 3.9 % of its pixels".
+[[nodiscard]] std::string sample_text(const Report& report);
+
 struct ExperimentOptions {
-    std::size_t tiles = 0; ///< 0: all of the frame
+    std::optional<double> seconds; ///< processor time per thread that the references may take; else the whole frame is rendered
+    std::optional<std::size_t> tiles; ///< so many of 32x32 pixels instead
     std::size_t walk_tiles = 24;
-    int repetitions = 5;
+    int repetitions = 5; ///< at most; with `seconds` as many as it grants
     int truth_samples = 16;
     std::size_t rays = 262144;
     FixedKnobs fixed;
     std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
-/// `bench`: all but its sample. Throws Interrupted, Error.
+/// `bench`: all but its sample.
 [[nodiscard]] Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& options);
 
 } // namespace lanecast::trade

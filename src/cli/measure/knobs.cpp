@@ -159,15 +159,14 @@ std::vector<Ladder> make_ladders(const SceneArrays& scene, const Choice& base, c
     add(Knob::anti_aliasing, anti_aliasings(own.anti_aliasing), fine, fine);
     if ((scene.features & feature_soft_lights) != 0 && own.shadows) {
         const KnobValue few = number(&RenderSettings::soft_shadows, dearest_shadow_rays);
-        const KnobValue many = number(&RenderSettings::soft_shadows, most_shadow_rays);
+        const AntiAliasMode mode = own.anti_aliasing.mode;
+        const bool one_sample = mode == AntiAliasMode::off || mode == AntiAliasMode::cross;
+        const KnobValue many = number(&RenderSettings::soft_shadows, one_sample ? most_shadow_rays : most_shadow_rays / 4);
         add(Knob::soft_shadows, numbers(&RenderSettings::soft_shadows, shadow_rays, own.soft_shadows, std::less<>()),
             sampled ? few : many, many);
     }
     if ((scene.features & (feature_reflective | feature_transmissive)) != 0) {
-        // Mirrors in glass double the rays at every level, and only a cutoff ends that.
-        const bool endless = fixed[Knob::cutoff] && own.cutoff < true_cutoff && (scene.features & feature_reflective) != 0 &&
-                             (scene.features & feature_transmissive) != 0;
-        const int deepest = std::max(endless ? 12 : 64, own.depth);
+        const int deepest = std::max(64, own.depth);
         const KnobValue deep = number(&RenderSettings::depth, deepest);
         std::vector<KnobValue> values = numbers(&RenderSettings::depth, depths, own.depth, std::less<>());
         std::erase_if(values,

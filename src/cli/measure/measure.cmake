@@ -10,6 +10,7 @@ target_sources(lanecast PRIVATE
   cli/measure/report_json.cpp
   cli/measure/report_plot.cpp
   cli/measure/report_text.cpp
+  cli/measure/sampling.cpp
   cli/measure/trial.cpp
   cli/measure/walk.cpp
 )

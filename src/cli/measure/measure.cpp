@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -27,11 +28,15 @@ using namespace trade;
 struct MeasureRequest {
     FrameRequest frame;
     bool quick = false;
-    std::size_t tiles = 24;
+    std::optional<int> reference_samples;
     ExperimentOptions experiment;
     std::string json, html;
     std::vector<std::string> plots;
 };
+
+constexpr double quick_seconds = 8; ///< about a fifth of the whole
+/// Per side of a pixel. 11 has no sample but the centre in common with any of the choices.
+constexpr int usual_samples = 16, quick_samples = 11;
 
 constexpr KeySpec tiles_key{.name = "tiles", .kind = ValueKind::whole, .range = {.low = 1, .high = 65536}};
 constexpr KeySpec repetitions_key{.name = "repetitions", .kind = ValueKind::whole, .range = {.low = 1, .high = 1000}};
@@ -64,24 +69,22 @@ int measure(const MeasureRequest& request) {
     probe_outputs(request);
     ExperimentOptions options = request.experiment;
     options.fixed = fixed_by(request.frame, false);
-    options.tiles = request.quick ? request.tiles : 0;
+    if (request.quick) options.seconds = quick_seconds;
+    options.truth_samples = request.reference_samples.value_or(request.quick ? quick_samples : usual_samples);
     if (!request.frame.quiet) options.say = [](const std::string& text) { print_message("lanecast measure: " + text); };
     const SceneArrays arrays = flatten_for_trials(request.frame, scene, options.fixed);
 
-    const InterruptScope interrupt;
     Bench bench;
     bench.scene = &arrays;
     bench.camera = &scene.description.camera;
     bench.isa = request.frame.isa;
     bench.options = frame_options(request.frame, scene);
-    bench.options.stop = &interrupt.stop();
-    bench.interrupt = &interrupt;
     Report report = run_experiment(bench, {scene.settings, false}, options);
     report.scene = std::filesystem::path(request.frame.scene).filename().string();
     report.cpu = cpu_name();
     report.compiler = compiler_name();
-    interrupt.check();
 
+    const InterruptScope interrupt; // files are written whole
     write_text(request.json, request.json.empty() ? "" : json_report(report));
     write_text(request.html, request.html.empty() ? "" : html_report(report));
     for (const std::string& file : request.plots) {
@@ -90,13 +93,14 @@ int measure(const MeasureRequest& request) {
         else
             write_text(file, svg_of(plot(report)));
     }
+    interrupt.check();
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);
 }
 
 template <class Set>
-void add_count(CLI::App& command, const std::string& name, const char* help, const KeySpec& key, const Set& set) {
-    command
+CLI::Option* add_count(CLI::App& command, const std::string& name, const char* help, const KeySpec& key, const Set& set) {
+    return command
         .add_option_function<std::string>(
             name, [name, &key, set](const std::string& text) { set(parse_number(name, text, key)); }, help)
         ->type_name("N");
@@ -109,13 +113,15 @@ void add_measure(CLI::App& app, Command& chosen) {
     const auto request = std::make_shared<MeasureRequest>();
     MeasureRequest& r = *request;
     add_scene_options(*command, r.frame);
-    command->add_flag("--quick", r.quick, "Some tiles spread over the frame instead of all of it");
-    add_count(*command, "--tiles", "How many, with --quick; default 24", tiles_key,
-              [&r](double v) { r.tiles = static_cast<std::size_t>(v); });
-    add_count(*command, "--repetitions", "Of which the median time counts; default 5", repetitions_key,
+    CLI::Option* const quick =
+        command->add_flag("--quick", r.quick, "As many tiles, spread over the frame, as can be measured in about a minute");
+    add_count(*command, "--tiles", "Only N tiles of 32x32 pixels, spread over the frame", tiles_key, [&r](double v) {
+        r.experiment.tiles = static_cast<std::size_t>(v);
+    })->excludes(quick);
+    add_count(*command, "--repetitions", "Of which the median time counts; default 5, with --quick at most", repetitions_key,
               [&r](double v) { r.experiment.repetitions = static_cast<int>(v); });
-    add_count(*command, "--reference-samples", "Per side of a pixel of the reference picture; default 16", samples_key,
-              [&r](double v) { r.experiment.truth_samples = static_cast<int>(v); });
+    add_count(*command, "--reference-samples", "Per side of a pixel of the reference picture; default 16, with --quick 11",
+              samples_key, [&r](double v) { r.reference_samples = static_cast<int>(v); });
     add_count(*command, "--rays", "Camera rays that are compared one by one; default 262144", rays_key,
               [&r](double v) { r.experiment.rays = static_cast<std::size_t>(v); });
     command->add_option("--json", r.json, "Write everything as JSON")->type_name("FILE");

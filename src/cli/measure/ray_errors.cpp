@@ -143,7 +143,6 @@ RayLists collect_rays(const Bench& bench, const RenderSettings& settings, std::s
     options.width = bench.sample.width;
     options.height = bench.sample.height;
     for_pixels(bench.sample, traced_pixels, [&](int x, int y) {
-        bench.interrupt->check();
         for (const TraceRecord& ray : trace_pixel(kernels, *bench.scene, *bench.camera, few, options, x, y).rays) {
             if (ray.kind == RayKind::reflection) add(lists[2], ray.org, ray.dir, no_end);
             if (ray.kind == RayKind::refraction) add(lists[3], ray.org, ray.dir, no_end);
@@ -182,7 +181,6 @@ std::vector<RayErrors> ray_errors(const Bench& bench, const RayLists& lists, con
         set_quantiles(std::move(distances), row.ulp_p50, row.ulp_p99, row.ulp_max);
         set_quantiles(std::move(angles), row.angle_p50, row.angle_p99, row.angle_max);
         rows.push_back(row);
-        bench.interrupt->check();
     }
     return rows;
 }

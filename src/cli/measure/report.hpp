@@ -18,6 +18,9 @@ namespace lanecast::trade {
 /// Whether no other trial is both faster and closer.
 [[nodiscard]] bool is_on_front(const Report& report, std::size_t trial);
 
+/// Values of a knob that no settings on the front have: of all scenes together, what could be deleted.
+[[nodiscard]] std::vector<std::string> unused_values(const Report& report, const Ladder& ladder);
+
 /// A table as all reports show it. Cells are text; numbers stand on the right.
 struct Table {
     std::string title, note;

@@ -57,6 +57,7 @@ std::string json_report(const Report& report) {
     json.add("threads", report.threads);
     json.add("repetitions", report.repetitions);
     json.add("tiles", report.tiles);
+    json.add("tile_size", report.tile_size);
     json.add("whole_frame", report.whole);
     json.add("share_of_pixels", report.share);
     json.open_object("reference");
@@ -93,6 +94,15 @@ std::string json_report(const Report& report) {
     json.close_list();
     add_list(json, "walk", report.walk);
     add_list(json, "front", report.front);
+    json.open_list("on_no_front");
+    for (const Ladder& ladder : report.ladders)
+        for (const std::string& value : unused_values(report, ladder)) {
+            json.open_object();
+            json.add("knob", name_of(ladder.knob));
+            json.add("value", value);
+            json.close_object();
+        }
+    json.close_list();
     json.open_list("rays");
     for (const RayErrors& row : report.rays) add_rays(json, row);
     json.close_list();

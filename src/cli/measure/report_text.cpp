@@ -65,6 +65,17 @@ Table trial_table(const Report& report, const std::string& title, const std::str
     return table;
 }
 
+/// "precision fast; soft shadows 1, 2".
+std::string unused_text(const Report& report) {
+    std::string text;
+    for (const Ladder& ladder : report.ladders) {
+        std::string values;
+        for (const std::string& value : unused_values(report, ladder)) values += (values.empty() ? " " : ", ") + value;
+        if (!values.empty()) text += (text.empty() ? "" : "; ") + std::string(name_of(ladder.knob)) + values;
+    }
+    return text.empty() ? "nothing" : text;
+}
+
 Table ray_table(const Report& report) {
     Table table{.title = "Single rays, against the reference",
                 .note = "Per million rays: missed, false hits, another object (ties within 4 ulp apart). t in units of its last "
@@ -96,6 +107,16 @@ bool is_on_front(const Report& report, std::size_t trial) {
     return std::find(report.front.begin(), report.front.end(), trial) != report.front.end();
 }
 
+std::vector<std::string> unused_values(const Report& report, const Ladder& ladder) {
+    std::vector<std::string> unused;
+    for (const KnobValue& value : ladder.values)
+        if (std::ranges::none_of(report.front, [&](std::size_t i) {
+                return label_of(ladder.knob, report.trials[i].choice) == value.label;
+            }))
+            unused.push_back(value.label);
+    return unused;
+}
+
 std::vector<Table> tables(const Report& report) {
     return {
         knob_table(report),
@@ -103,15 +124,13 @@ std::vector<Table> tables(const Report& report) {
                     "Downhill from the dearest settings, on a spread of tiles, each step the one that saves most for the error "
                     "it adds; measured again here. >: on the front",
                     report.walk),
-        trial_table(report, "The front", "No other settings tried are both faster and closer in RMSE", report.front),
+        trial_table(report, "The front", "No other settings tried are both faster and closer in RMSE. On no front here: " + unused_text(report), report.front),
         ray_table(report)};
 }
 
 std::vector<std::string> preamble(const Report& report) {
-    std::string sample = std::to_string(report.width) + "x" + std::to_string(report.height);
-    sample += report.whole ? ", every tile"
-                           : ", " + counted(report.tiles, "tile") + " of 32x32 spread over it, " + fixed(100 * report.share, 1) +
-                                 " % of its pixels; times are scaled to the frame";
+    const std::string sample = std::to_string(report.width) + "x" + std::to_string(report.height) + ", " + sample_text(report) +
+                               (report.whole ? "" : "; times are scaled to it");
     return {report.scene + ", " + sample,
             report.cpu + ", " + report.compiler + ", " + counted(static_cast<std::size_t>(report.threads), "thread") +
                 "; processor time of all threads, median of " + std::to_string(report.repetitions) + " and half the range",

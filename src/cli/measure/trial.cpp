@@ -1,5 +1,6 @@
 #include "cli/measure/trial.hpp"
 
+#include "cli/interrupt.hpp"
 #include "render/compare.hpp"
 #include "render/dispatch.hpp"
 #include "render/exr_io.hpp"
@@ -88,7 +89,6 @@ RenderedSample render(const Bench& bench, const RenderSettings& settings) {
     const bool reference = settings.precision == Precision::reference;
     const KernelTable& kernels = find_kernels(reference ? "auto" : bench.isa, settings.precision);
     RenderedSample rendered = render_sample(kernels, *bench.scene, *bench.camera, settings, bench.options, bench.sample);
-    bench.interrupt->check();
     for (Film& film : rendered.films) scrub(film);
     return rendered;
 }
@@ -101,7 +101,10 @@ void round_as_file(std::vector<Film>& films, bool float_file) {
 }
 
 ReferencePicture render_reference(const Bench& bench, const Choice& choice) {
-    RenderedSample rendered = render(bench, choice.settings);
+    constexpr int small_tile = 4; // a pixel of glass may take seconds: no thread shall be left with all of them
+    Bench small = bench;
+    small.sample = in_tiles_of(bench.sample, small_tile);
+    RenderedSample rendered = render(small, choice.settings);
     ReferencePicture reference;
     reference.seconds = rendered.seconds;
     reference.films = std::move(rendered.films);
@@ -133,9 +136,11 @@ ReferencePicture cut(const ReferencePicture& reference, const TileSample& sample
 double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file) {
     const Film film = packed(films, bench.sample.width);
     const std::string name = "lanecast_measure_" + std::to_string(::getpid()) + ".exr";
+    const InterruptScope interrupt;
     OutputFile file(std::filesystem::temp_directory_path() / name); // never committed, so it leaves nothing behind
     const double begin = process_time();
     write_exr(file, film, {.float_pixels = float_file, .threads = 1, .attributes = {}});
+    interrupt.check();
     return (process_time() - begin) * frame_scale(bench.sample);
 }
 
@@ -143,11 +148,10 @@ void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& la
     const auto depth = std::ranges::find(ladders, Knob::depth, &Ladder::knob);
     const auto cutoff = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
     constexpr double most_rays = 10;
-    constexpr std::size_t tiles = 8;
+    constexpr std::size_t places = 2048; // of 2x2 pixels: it is a few spots of glass where rays never end
     Bench few = bench;
-    few.options.width = bench.sample.width;
-    few.options.height = bench.sample.height;
-    few.sample = spread_tiles(few.options, tiles);
+    few.options.tile_size = 2;
+    few.sample = spread_tiles(few.options, places);
     RenderSettings settings = true_choice(base, ladders).settings;
     settings.precision = Precision::balanced;
     settings.anti_aliasing.mode = AntiAliasMode::off;
@@ -182,13 +186,29 @@ void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& la
     set_true_cutoff(*cutoff, smallest, base);
 }
 
-Choice second_truth(const Choice& truth) {
+Choice second_truth(const Choice& truth, const std::vector<Ladder>& ladders) {
     Choice second = truth;
-    AntiAliasing& aa = second.settings.anti_aliasing;
-    if (aa.mode == AntiAliasMode::grid) aa.samples = std::max(1, 2 * aa.samples / 3);
-    second.settings.soft_shadows = 2 * second.settings.soft_shadows / 3;
-    second.settings.cutoff = std::min(1.0, 4 * second.settings.cutoff);
-    second.settings.precision = Precision::balanced;
+    RenderSettings& s = second.settings;
+    const auto two_thirds = [](int n) { return 2 * n / 3; };
+    for (const Ladder& ladder : ladders) switch (ladder.knob) {
+        case Knob::precision:
+            s.precision = Precision::balanced;
+            break;
+        case Knob::anti_aliasing:
+            s.anti_aliasing.samples = two_thirds(s.anti_aliasing.samples);
+            break;
+        case Knob::soft_shadows:
+            s.soft_shadows = two_thirds(s.soft_shadows);
+            break;
+        case Knob::depth:
+            s.depth = two_thirds(s.depth);
+            break;
+        case Knob::cutoff:
+            s.cutoff = std::min(1.0, 4 * s.cutoff);
+            break;
+        case Knob::file:
+            break;
+        }
     return second;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // A choice of settings, tried: its error against the reference picture and its time.
 
-#include "cli/interrupt.hpp"
 #include "cli/measure/knobs.hpp"
 #include "render/flip.hpp"
 #include "render/tile_sample.hpp"
@@ -30,17 +29,15 @@ struct ReferencePicture {
 
 [[nodiscard]] PictureError error_of(const std::vector<Film>& films, const ReferencePicture& reference, const TileSample& sample);
 
-/// What all trials have in common.
+/// What all trials have in common. They hold nothing that a signal could spoil, so no InterruptScope either: it ends the process.
 struct Bench {
     const SceneArrays* scene = nullptr;
     const Camera* camera = nullptr;
     std::string isa = "auto";
-    FrameOptions options; ///< threads and stop count
+    FrameOptions options;
     TileSample sample;
-    const InterruptScope* interrupt = nullptr;
 };
 
-/// Throws Interrupted as soon as the user wants to stop.
 [[nodiscard]] RenderedSample render(const Bench& bench, const RenderSettings& settings);
 
 /// The films as the file will give them back.
@@ -55,12 +52,12 @@ void round_as_file(std::vector<Film>& films, bool float_file);
 [[nodiscard]] double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file);
 
 /// Where glass and mirrors face each other, rays are nearly without end: makes the largest depth and then the smallest cutoff the
-/// truth that keep them to ten mirrored and transmitted ones per camera ray, on a few tiles.
+/// truth that keep them to ten mirrored and transmitted ones per camera ray.
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders);
 
-/// The truth again with two thirds of its samples per side and of its shadow rays, four times its cutoff, in float.
-inline constexpr double second_share = 2.0 / 3;
-[[nodiscard]] Choice second_truth(const Choice& truth);
+/// The truth again with two thirds of its samples per side, of its shadow rays and of its depth, four times its cutoff, in float:
+/// as far as these were to be turned.
+[[nodiscard]] Choice second_truth(const Choice& truth, const std::vector<Ladder>& ladders);
 
 /// From the sample to the frame.
 [[nodiscard]] double frame_scale(const TileSample& sample);
