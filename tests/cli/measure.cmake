@@ -17,3 +17,4 @@ lanecast_test(test_measure LABELS unit
 target_link_libraries(test_measure PRIVATE CLI11::CLI11)
 lanecast_program_test(test_measure_command LABELS unit errors SOURCES cli/measure_command_test.cpp)
 target_link_libraries(test_measure_command PRIVATE nlohmann_json::nlohmann_json)
+lanecast_program_test(test_budget_command LABELS unit errors determinism SOURCES cli/budget_command_test.cpp)

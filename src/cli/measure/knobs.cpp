@@ -6,6 +6,7 @@
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 namespace lanecast::trade {
@@ -18,6 +19,7 @@ constexpr double cutoffs[] = {1.0 / 16, 1.0 / 64, 1.0 / 256, 1.0 / 1024, 1.0 / 4
 constexpr double true_cutoff = 1.0 / 65536;
 constexpr int dearest_shadow_rays = 8; ///< per sample of the pixel, each with others
 constexpr int most_shadow_rays = 1024; ///< of a pixel with one sample
+constexpr int steps_tried = 2;         ///< down a ladder: what one step saves may be less than the clock can tell
 
 const KeySpec& key_of(const BlockSpec& block, std::string_view name) {
     return *std::ranges::find(block.keys, name, &KeySpec::name);
@@ -32,7 +34,7 @@ KnobValue anti_aliasing(AntiAliasMode mode, int samples) {
     Choice choice;
     const auto set = [mode, samples](Choice& c) {
         c.settings.anti_aliasing.mode = mode;
-        if (mode == AntiAliasMode::edge || mode == AntiAliasMode::grid) c.settings.anti_aliasing.samples = samples;
+        c.settings.anti_aliasing.samples = samples;
     };
     set(choice);
     return {label_of(Knob::anti_aliasing, choice), set};
@@ -78,7 +80,9 @@ std::vector<KnobValue> numbers(T RenderSettings::*member, const T (&values)[n], 
 }
 
 std::vector<KnobValue> anti_aliasings(const AntiAliasing& own) {
-    std::vector<KnobValue> values{anti_aliasing(AntiAliasMode::off, 0), anti_aliasing(AntiAliasMode::cross, 0)};
+    // without samples: the number stays the scene's own, so that equal pictures have equal settings
+    std::vector<KnobValue> values{anti_aliasing(AntiAliasMode::off, own.samples),
+                                  anti_aliasing(AntiAliasMode::cross, own.samples)};
     const auto add = [&](AntiAliasMode mode, std::span<const int> samples) {
         std::vector<int> all(samples.begin(), samples.end());
         if (own.mode == mode && std::ranges::find(all, own.samples) == all.end()) all.push_back(own.samples);
@@ -90,33 +94,29 @@ std::vector<KnobValue> anti_aliasings(const AntiAliasing& own) {
     return values;
 }
 
-bool has(const Ladder& ladder, const std::string& label) {
-    return std::ranges::find(ladder.values, label, &KnobValue::label) != ladder.values.end();
-}
-
 Choice with(Choice choice, const KnobValue& value) {
     value.set(choice);
     return choice;
 }
 
-/// One step: fewer samples; edges only instead of everywhere; nothing instead of two per side.
+/// Fewer samples, by one step or two; edges only instead of everywhere; no samples instead of the fewest or the fewest but one.
 std::vector<Choice> cheaper_anti_aliasing(const Choice& choice, const Ladder& ladder) {
     const AntiAliasing& aa = choice.settings.anti_aliasing;
-    std::vector<Choice> out;
-    const KnobValue* fewer = nullptr;
+    if (aa.mode == AntiAliasMode::off) return {};
+    std::vector<Choice> fewer, out;
     for (const KnobValue& value : ladder.values) {
-        const AntiAliasing other = with(choice, value).settings.anti_aliasing;
-        if (other.mode == aa.mode && other.samples < aa.samples) fewer = &value; // ascending: the last one counts
+        const Choice next = with(choice, value);
+        const AntiAliasing& other = next.settings.anti_aliasing;
+        if (other.mode == aa.mode && other.samples < aa.samples) fewer.push_back(next);
+        if (aa.mode == AntiAliasMode::grid && other.mode == AntiAliasMode::edge && other.samples == aa.samples)
+            out.push_back(next);
     }
-    const bool sampled = aa.mode == AntiAliasMode::grid || aa.mode == AntiAliasMode::edge;
-    if (sampled && fewer != nullptr) out.push_back(with(choice, *fewer));
-    if (aa.mode == AntiAliasMode::grid) {
-        const KnobValue edge = anti_aliasing(AntiAliasMode::edge, aa.samples);
-        if (has(ladder, edge.label)) out.push_back(with(choice, edge));
+    out.insert(out.end(), std::ssize(fewer) > steps_tried ? fewer.end() - steps_tried : fewer.begin(), fewer.end());
+    if (std::ssize(fewer) >= steps_tried) return out;
+    for (const KnobValue& value : ladder.values) {
+        const AntiAliasMode mode = with(choice, value).settings.anti_aliasing.mode;
+        if (mode == AntiAliasMode::off || (mode == AntiAliasMode::cross && aa.mode != mode)) out.push_back(with(choice, value));
     }
-    if (sampled && fewer == nullptr) out.push_back(with(choice, anti_aliasing(AntiAliasMode::cross, 0)));
-    if (aa.mode == AntiAliasMode::cross || (sampled && fewer == nullptr))
-        out.push_back(with(choice, anti_aliasing(AntiAliasMode::off, 0)));
     return out;
 }
 
@@ -284,9 +284,11 @@ std::vector<Choice> cheaper(const Choice& choice, const Ladder& ladder) {
             if (value.label != own) others.push_back(with(choice, value));
         return others;
     }
-    for (std::size_t i = 1; i < ladder.values.size(); ++i)
-        if (ladder.values[i].label == own) return {with(choice, ladder.values[i - 1])};
-    return {};
+    std::vector<Choice> out;
+    const auto at = std::ranges::find(ladder.values, own, &KnobValue::label);
+    if (at == ladder.values.end()) return out;
+    for (auto lower = at; lower != ladder.values.begin() && std::ssize(out) < steps_tried;) out.push_back(with(choice, *--lower));
+    return out;
 }
 
 } // namespace lanecast::trade

@@ -68,7 +68,7 @@ void set_true_depth(Ladder& ladder, int depth, const Choice& base);
 /// The best values that are worth trying, none of them the truth's.
 [[nodiscard]] Choice dearest_choice(const Choice& base, const std::vector<Ladder>& ladders);
 
-/// Choices that may be one step cheaper in this knob.
+/// Choices that may be cheaper by a step or two of this knob.
 [[nodiscard]] std::vector<Choice> cheaper(const Choice& choice, const Ladder& ladder);
 
 } // namespace lanecast::trade

@@ -110,9 +110,8 @@ bool is_on_front(const Report& report, std::size_t trial) {
 std::vector<std::string> unused_values(const Report& report, const Ladder& ladder) {
     std::vector<std::string> unused;
     for (const KnobValue& value : ladder.values)
-        if (std::ranges::none_of(report.front, [&](std::size_t i) {
-                return label_of(ladder.knob, report.trials[i].choice) == value.label;
-            }))
+        if (std::ranges::none_of(report.front,
+                                 [&](std::size_t i) { return label_of(ladder.knob, report.trials[i].choice) == value.label; }))
             unused.push_back(value.label);
     return unused;
 }
@@ -124,7 +123,9 @@ std::vector<Table> tables(const Report& report) {
                     "Downhill from the dearest settings, on a spread of tiles, each step the one that saves most for the error "
                     "it adds; measured again here. >: on the front",
                     report.walk),
-        trial_table(report, "The front", "No other settings tried are both faster and closer in RMSE. On no front here: " + unused_text(report), report.front),
+        trial_table(report, "The front",
+                    "No other settings tried are both faster and closer in RMSE. On no front here: " + unused_text(report),
+                    report.front),
         ray_table(report)};
 }
 
