@@ -17,7 +17,7 @@ namespace {
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
   1    diff found a difference, or an internal failure
-  2    wrong usage of the command line
+  2    wrong usage of the command line, or no settings keep --max-error or --max-time
   3    the scene cannot be read or is not valid
   4    a mesh or a picture cannot be read or is not valid
   5    an output cannot be written
@@ -61,7 +61,7 @@ std::string nearest(const CLI::App& command, const std::string& word) {
 std::string explanation(const CLI::App& command, const CLI::ParseError& error) {
     const auto extras = command.remaining();
     const bool no_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command.get_parent() == nullptr;
-    if (extras.empty() && no_command) return "a command is required: render, check, info, pick, diff or schema";
+    if (extras.empty() && no_command) return "a command is required: render, check, info, pick, diff, bench, measure or schema";
     const bool not_known = no_command || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     if (extras.empty() || !not_known) return error.what();
     const std::string near = nearest(command, extras.front());

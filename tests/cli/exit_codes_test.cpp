@@ -32,7 +32,7 @@ TEST_CASE("0: help, version, and every command's help lists the exit codes") {
     outcome = run({"--help"});
     CHECK(outcome.code == 0);
     CHECK(contains(outcome.out, "130  interrupted"));
-    for (const char* command : {"render", "check", "info", "pick", "diff", "schema"}) {
+    for (const char* command : {"render", "check", "info", "pick", "diff", "bench", "measure", "schema"}) {
         CAPTURE(command);
         CHECK(contains(outcome.out, command));
         const Outcome help = run({command, "--help"});
