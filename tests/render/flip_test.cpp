@@ -49,8 +49,8 @@ double flip(const Film& a, const Film& b, PixelValues values = PixelValues::line
 } // namespace
 
 TEST_CASE("as the authors' program has it") {
-    // the evaluator in C++ of its authors (docs/accuracy.md), at the default distance; it computes in float, and roots of small differences of
-    // features magnify that
+    // the evaluator in C++ of its authors (docs/accuracy.md), at the default distance; it computes in float, and roots of small
+    // differences of features magnify that
     CHECK(flip(ramp(1, 0.5, 0.25), ramp(0.9, 0.55, 0.3)) == doctest::Approx(0.179457).epsilon(1e-5));
     CHECK(flip(checker(0), checker(1)) == doctest::Approx(0.235994).epsilon(1e-4));
     CHECK(flip(noise(), grey()) == doctest::Approx(0.330661).epsilon(1e-5));
