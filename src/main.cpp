@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
     add_diff(app, command);
     add_bench(app, command);
     add_measure(app, command);
+    add_selftest(app, command);
     add_schema(app, command);
     describe_usage(app);
     try {

@@ -18,6 +18,7 @@ void add_pick(CLI::App& app, Command& chosen);
 void add_diff(CLI::App& app, Command& chosen);
 void add_bench(CLI::App& app, Command& chosen);
 void add_measure(CLI::App& app, Command& chosen);
+void add_selftest(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 
 } // namespace lanecast

@@ -1,6 +1,6 @@
 // Promises of the compiler and the C library that our numbers rest on. A failure here explains any failure elsewhere.
 
-#include "subjects.hpp"
+#include "cli/selftest/canary_subjects.hpp"
 
 #include <doctest/doctest.h>
 

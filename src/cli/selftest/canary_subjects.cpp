@@ -1,11 +1,12 @@
-#include "subjects.hpp"
+#include "canary_subjects.hpp"
 
 #include <cmath>
 
 #include <immintrin.h>
 
-#ifdef CANARY_UNFLAGGED
-namespace unflagged {
+#ifdef LANECAST_CANARY
+namespace LANECAST_CANARY {
+CANARY_SUBJECTS
 #else
 namespace flagged {
 #endif

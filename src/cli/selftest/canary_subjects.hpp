@@ -1,5 +1,6 @@
 #pragma once
-// The expressions under test, compiled twice: with the project's flags, and in namespace unflagged without them.
+// What the numbers rest on, as expressions for the compiler: compiled for every instruction set with the flags of its kernels,
+// each in a namespace of its own, and once more, in namespace unflagged, without those flags (tests/canaries/).
 
 #define CANARY_SUBJECTS                                                                                                          \
     /* out[i] = (double)(float)in[i] */                                                                                          \
