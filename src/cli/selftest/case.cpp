@@ -81,6 +81,7 @@ double mean_of(const Tally& tally) {
 bool is_met(const Target& target, const Tally& tally) {
     return static_cast<double>(tally.failures) <= target.failure_rate * static_cast<double>(tally.rays) &&
            tally.worst <= target.worst && tally.percentile(0.99) <= target.p99 * 1.0000001 &&
+           tally.percentile(0.5) <= target.median * 1.0000001 &&
            (target.mean == std::numeric_limits<double>::infinity() || mean_of(tally) <= target.mean);
 }
 
@@ -93,6 +94,7 @@ std::string text_of(const Target& target) {
     add("worst", target.worst);
     add("p99", target.p99);
     add("mean", target.mean);
+    add("median", target.median);
     if (target.listed) text += " (listed)";
     return text;
 }

@@ -66,13 +66,20 @@ struct Target {
     double worst = std::numeric_limits<double>::infinity();
     double p99 = std::numeric_limits<double>::infinity();
     double mean = std::numeric_limits<double>::infinity();
+    double median = std::numeric_limits<double>::infinity();
     const char* unit = ""; ///< of errors
     bool listed = false;   ///< a miss is shown, and does not fail the run
 };
 [[nodiscard]] bool is_met(const Target& target, const Tally& tally);
 [[nodiscard]] std::string text_of(const Target& target);
 
-// What of the covering list makes a difference to a case.
+/// What of the covering list makes a difference to a case.
+struct Scope {
+    unsigned primitives = 1; ///< bit: PrimitiveKind
+    unsigned placings = 1;   ///< bit: Placing
+    unsigned paths = 1;      ///< bit: Path
+    bool leaf_sizes = false;
+};
 inline constexpr unsigned every_primitive = 0x7f;
 inline constexpr unsigned bounded_primitives = 0x3f;
 inline constexpr unsigned every_placing = 0x3f;
@@ -87,13 +94,10 @@ struct Case {
     const char* statement; ///< in a line
     Target target;
     void (*run)(const Block& block, Tally& tally);
+    Scope scope;
     std::uint64_t quick_rays;         ///< in the minute's size
     std::uint64_t block_rays = 65536; ///< a block takes 10 to 300 ms
-    unsigned primitives = 1;          ///< bit: PrimitiveKind
-    unsigned placings = 1;            ///< bit: Placing
-    unsigned paths = 1;               ///< bit: Path
-    bool leaf_sizes = false;
-    double full_share = 1; ///< of the rays of a full run, where rays are dear or nothing is left to find
+    double full_share = 1;            ///< of the rays of a full run, where rays are dear or nothing is left to find
 };
 
 /// In the order of the reference table.

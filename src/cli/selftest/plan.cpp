@@ -59,9 +59,9 @@ std::vector<Row> cover(const Row& counts) {
 } // namespace
 
 std::vector<Setting> covering_settings(const Case& c, const std::vector<const KernelTable*>& kernels) {
-    const std::vector<int> primitives = bits_of_mask(c.primitives), placings = bits_of_mask(c.placings);
-    const std::vector<int> paths = bits_of_mask(c.paths);
-    const int leaf_sizes = c.leaf_sizes ? max_leaf_size : 1;
+    const std::vector<int> primitives = bits_of_mask(c.scope.primitives), placings = bits_of_mask(c.scope.placings);
+    const std::vector<int> paths = bits_of_mask(c.scope.paths);
+    const int leaf_sizes = c.scope.leaf_sizes ? max_leaf_size : 1;
     std::vector<Setting> settings;
     const Row counts{int(kernels.size()), int(primitives.size()), int(placings.size()), leaf_sizes, int(paths.size())};
     for (const Row& row : cover(counts)) {
@@ -69,7 +69,7 @@ std::vector<Setting> covering_settings(const Case& c, const std::vector<const Ke
         setting.kernels = kernels[static_cast<std::size_t>(row[0])];
         setting.primitive = static_cast<PrimitiveKind>(primitives[static_cast<std::size_t>(row[1])]);
         setting.placing = static_cast<Placing>(placings[static_cast<std::size_t>(row[2])]);
-        setting.leaf_size = c.leaf_sizes ? row[3] + 1 : max_leaf_size;
+        setting.leaf_size = c.scope.leaf_sizes ? row[3] + 1 : max_leaf_size;
         setting.path = static_cast<Path>(paths[static_cast<std::size_t>(row[4])]);
         settings.push_back(setting);
     }

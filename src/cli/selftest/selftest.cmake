@@ -4,10 +4,14 @@ add_library(lanecast_selftest STATIC
   cli/selftest/canaries.cpp
   cli/selftest/case.cpp
   cli/selftest/cases.cpp
+  cli/selftest/contact.cpp
+  cli/selftest/files.cpp
   cli/selftest/frames.cpp
   cli/selftest/leaf_tree.cpp
   cli/selftest/meshes.cpp
+  cli/selftest/motions.cpp
   cli/selftest/objects.cpp
+  cli/selftest/optics.cpp
   cli/selftest/oracle.cpp
   cli/selftest/picture.cpp
   cli/selftest/plan.cpp
@@ -19,8 +23,11 @@ add_library(lanecast_selftest STATIC
   cli/selftest/scenes.cpp
   cli/selftest/spawn.cpp
   cli/selftest/state.cpp
+  cli/selftest/torture.cpp
+  cli/selftest/transforms.cpp
   cli/selftest/triangles.cpp
   cli/selftest/watertight.cpp
+  cli/selftest/wiggle.cpp
 )
 target_link_libraries(lanecast_selftest PRIVATE lanecast::lanecast lanecast_flags)
 target_include_directories(lanecast_selftest PRIVATE ${CMAKE_BINARY_DIR}/generated) # kernel_list.inc

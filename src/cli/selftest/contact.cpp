@@ -1,0 +1,94 @@
+// N9: what lies four times the offset of a spawned ray above a surface is seen from it.
+
+#include "cli/selftest/cases.hpp"
+#include "cli/selftest/objects.hpp"
+#include "cli/selftest/picture.hpp"
+#include "cli/selftest/random.hpp"
+#include "scene/flatten.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lanecast::selftest {
+namespace {
+
+constexpr double gamma_7 = 4.2e-7, two_u = 1.2e-7; ///< of docs/numerics.md
+
+Mesh sheet(double y) {
+    Mesh mesh;
+    mesh.positions = {{-1, y, -1}, {1, y, -1}, {1, y, 1}, {-1, y, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    return mesh;
+}
+
+/// A clear surface with an opaque one right behind it, as seen along +y, that is from below.
+void make_contact(PrimitiveKind kind, double gap, Shape& clear, Shape& opaque) {
+    switch (kind) {
+    case PrimitiveKind::sphere:
+        clear = Sphere{1, {0, 0, 0}}, opaque = Sphere{1 - gap, {0, 0, 0}};
+        break;
+    case PrimitiveKind::cylinder:
+        clear = Cylinder{1, 2, true}, opaque = Cylinder{0.9, 2 - 2 * gap, true};
+        break;
+    case PrimitiveKind::plane:
+        clear = Plane{{0, 0, 0}, {0, -1, 0}}, opaque = Plane{{0, gap, 0}, {0, -1, 0}};
+        break;
+    default:
+        clear = sheet(0), opaque = sheet(gap);
+    }
+}
+
+} // namespace
+
+void test_contact(const Block& block, Tally& tally) {
+    Random random(block.seed);
+    const Setting& s = block.setting;
+    const std::uint64_t end = tally.rays + block.rays;
+    while (tally.rays < end) {
+        const glm::dvec3 away = random.point(s.placing == Placing::translated ? 30 : 0.3);
+        // The bound grows with the coordinates that are added up: of the body, and of where it lies. Planes: of the hit point.
+        const double sum = std::fabs(away.x) + std::fabs(away.y) + std::fabs(away.z), place = sum + 3;
+        double bound = gamma_7 * 3 + two_u * (place + sum);
+        if (s.primitive == PrimitiveKind::cylinder) bound += gamma_7 * 3;
+        if (s.primitive == PrimitiveKind::triangle) bound = gamma_7 * (sum + 9) + two_u * place;
+        if (s.primitive == PrimitiveKind::plane) bound = (gamma_7 + two_u) * place;
+        const double gap = 4 * bound;
+        Shape clear, opaque;
+        make_contact(s.primitive, gap, clear, opaque);
+        SceneDescription scene;
+        std::vector<Transformation> turn{Rotation{random.direction(), random.uniform(0, 360)}, Translation{away}};
+        const AffineTransform world = compose(turn);
+        if (auto* plane = std::get_if<Plane>(&clear)) {
+            auto& behind = std::get<Plane>(opaque);
+            plane->normal = world.linear * plane->normal, behind.normal = plane->normal;
+            plane->position = apply(world, plane->position), behind.position = apply(world, behind.position);
+            turn.clear();
+            add_object(scene, Sphere{0.01, apply(world, {0, 2, 0})}); // gives the scene a size; behind both
+        }
+        Material glass, white;
+        glass.transmissive = glm::dvec3(1);
+        white.ambient = glm::dvec3(1);
+        add_object(scene, clear, turn, glass);
+        add_object(scene, opaque, turn, white);
+        add_object(scene, Sphere{0.001, -away - glm::dvec3(0, 40, 0)}); // far from the picture
+        scene.lights.emplace_back(AmbientLight{glm::dvec3(1)});
+        Camera& camera = scene.camera;
+        camera.position = apply(world, {0, -4, 0});
+        camera.look_at = apply(world, {random.uniform(-0.2, 0.2), 0, random.uniform(-0.2, 0.2)});
+        camera.up = world.linear[2];
+        camera.field = 10;
+        const SceneArrays arrays = flatten(scene, RenderSettings{}, 1);
+        constexpr int edge = 64;
+        const Picture picture = render(*s.kernels, arrays, camera, RenderSettings{}, edge, edge);
+        std::uint64_t lost = 0;
+        for (const float value : picture.film.rgb[0]) lost += value == 1.0f ? 0 : 1;
+        if (lost > 0) {
+            tally.fail("a gap of " + std::to_string(gap * 1e6) + "e-6 is not seen");
+            tally.failures += lost - 1;
+        }
+        tally.rays += edge * edge;
+    }
+}
+
+} // namespace lanecast::selftest
