@@ -50,7 +50,8 @@ double Tally::percentile(double share) const {
     std::uint64_t below = 0;
     for (const auto& [place, n] : errors) {
         below += n;
-        if (static_cast<double>(below) >= wanted) return place == -1600 ? 0 : std::exp2(double(place) / classes_per_octave);
+        if (static_cast<double>(below) >= wanted)
+            return place == -1600 ? 0 : std::min(worst, std::exp2(double(place) / classes_per_octave));
     }
     return 0;
 }
@@ -63,12 +64,9 @@ void Tally::add(const Tally& later) {
     for (const auto& [place, n] : later.errors) errors[place] += n;
 }
 
-namespace {
-
-/// By the upper ends of the classes: 4 % too large at most.
-double mean_of(const Tally& tally) {
+double Tally::mean() const {
     double sum = 0, count = 0;
-    for (const auto& [place, n] : tally.errors) {
+    for (const auto& [place, n] : errors) {
         const auto times = static_cast<double>(n);
         sum += place == -1600 ? 0 : times * std::exp2(double(place) / classes_per_octave);
         count += times;
@@ -76,13 +74,11 @@ double mean_of(const Tally& tally) {
     return count > 0 ? sum / count : 0;
 }
 
-} // namespace
-
 bool is_met(const Target& target, const Tally& tally) {
     return static_cast<double>(tally.failures) <= target.failure_rate * static_cast<double>(tally.rays) &&
            tally.worst <= target.worst && tally.percentile(0.99) <= target.p99 * 1.0000001 &&
            tally.percentile(0.5) <= target.median * 1.0000001 &&
-           (target.mean == std::numeric_limits<double>::infinity() || mean_of(tally) <= target.mean);
+           (target.mean == std::numeric_limits<double>::infinity() || tally.mean() <= target.mean);
 }
 
 std::string text_of(const Target& target) {

@@ -39,6 +39,50 @@ void make_contact(PrimitiveKind kind, double gap, Shape& clear, Shape& opaque) {
     }
 }
 
+SceneDescription contact_scene(const Setting& s, double gap, const glm::dvec3& away, std::vector<Transformation> turn,
+                               const glm::dvec3& look_at, const glm::dvec3& up) {
+    Shape clear, opaque;
+    make_contact(s.primitive, gap, clear, opaque);
+    SceneDescription scene;
+    const AffineTransform world = compose(turn);
+    if (auto* plane = std::get_if<Plane>(&clear)) {
+        auto& behind = std::get<Plane>(opaque);
+        plane->normal = world.linear * plane->normal, behind.normal = plane->normal;
+        plane->position = apply(world, plane->position), behind.position = apply(world, behind.position);
+        turn.clear();
+        add_object(scene, Sphere{1, apply(world, {0, 2, 0})}); // gives the scene a size; behind both
+    }
+    Material glass, white;
+    glass.transmissive = glm::dvec3(1);
+    white.ambient = glm::dvec3(1);
+    add_object(scene, clear, turn, glass);
+    add_object(scene, opaque, turn, white);
+    if (s.placing == Placing::translated) add_object(scene, Sphere{0.001, -away}); // keeps the centre away; not in the picture
+    scene.lights.emplace_back(AmbientLight{glm::dvec3(1)});
+    scene.camera.position = apply(world, {0, -4, 0});
+    scene.camera.look_at = apply(world, look_at);
+    scene.camera.up = up;
+    scene.camera.field = 10;
+    return scene;
+}
+
+/// Of points no farther than 1 along each axis from `place`, which counts from the centre of coordinates. docs/numerics.md:
+/// gamma_7 of the magnitudes that are added up, and 2 u of the sum's, along the normal.
+double offset_bound(PrimitiveKind kind, const glm::dvec3& place) {
+    const double sum = std::fabs(place.x) + std::fabs(place.y) + std::fabs(place.z);
+    const double body = 3; // |x| + |y| + |z| of a point of the body, turned: at most
+    switch (kind) {
+    case PrimitiveKind::sphere:
+        return gamma_7 * std::sqrt(3.0) + two_u * (sum + sum + body);
+    case PrimitiveKind::cylinder:
+        return 2 * gamma_7 * body + two_u * (sum + sum + body);
+    case PrimitiveKind::plane:
+        return (gamma_7 + two_u) * (sum + body);
+    default:
+        return gamma_7 * (sum + body + 2 * body) + two_u * (sum + body);
+    }
+}
+
 } // namespace
 
 void test_contact(const Block& block, Tally& tally) {
@@ -47,40 +91,15 @@ void test_contact(const Block& block, Tally& tally) {
     const std::uint64_t end = tally.rays + block.rays;
     while (tally.rays < end) {
         const glm::dvec3 away = random.point(s.placing == Placing::translated ? 30 : 0.3);
-        // The bound grows with the coordinates that are added up: of the body, and of where it lies. Planes: of the hit point.
-        const double sum = std::fabs(away.x) + std::fabs(away.y) + std::fabs(away.z), place = sum + 3;
-        double bound = gamma_7 * 3 + two_u * (place + sum);
-        if (s.primitive == PrimitiveKind::cylinder) bound += gamma_7 * 3;
-        if (s.primitive == PrimitiveKind::triangle) bound = gamma_7 * (sum + 9) + two_u * place;
-        if (s.primitive == PrimitiveKind::plane) bound = (gamma_7 + two_u) * place;
-        const double gap = 4 * bound;
-        Shape clear, opaque;
-        make_contact(s.primitive, gap, clear, opaque);
-        SceneDescription scene;
-        std::vector<Transformation> turn{Rotation{random.direction(), random.uniform(0, 360)}, Translation{away}};
-        const AffineTransform world = compose(turn);
-        if (auto* plane = std::get_if<Plane>(&clear)) {
-            auto& behind = std::get<Plane>(opaque);
-            plane->normal = world.linear * plane->normal, behind.normal = plane->normal;
-            plane->position = apply(world, plane->position), behind.position = apply(world, behind.position);
-            turn.clear();
-            add_object(scene, Sphere{0.01, apply(world, {0, 2, 0})}); // gives the scene a size; behind both
-        }
-        Material glass, white;
-        glass.transmissive = glm::dvec3(1);
-        white.ambient = glm::dvec3(1);
-        add_object(scene, clear, turn, glass);
-        add_object(scene, opaque, turn, white);
-        add_object(scene, Sphere{0.001, -away - glm::dvec3(0, 40, 0)}); // far from the picture
-        scene.lights.emplace_back(AmbientLight{glm::dvec3(1)});
-        Camera& camera = scene.camera;
-        camera.position = apply(world, {0, -4, 0});
-        camera.look_at = apply(world, {random.uniform(-0.2, 0.2), 0, random.uniform(-0.2, 0.2)});
-        camera.up = world.linear[2];
-        camera.field = 10;
-        const SceneArrays arrays = flatten(scene, RenderSettings{}, 1);
+        const std::vector<Transformation> turn{Rotation{random.direction(), random.uniform(0, 360)}, Translation{away}};
+        const glm::dvec3 look_at(random.uniform(-0.2, 0.2), 0, random.uniform(-0.2, 0.2)), up = random.direction();
+        const auto make = [&](double gap) { return contact_scene(s, gap, away, turn, look_at, up); };
+        SceneArrays arrays = flatten(make(0.01), RenderSettings{}, 1); // to learn where the centre of coordinates is
+        const double gap = 4 * offset_bound(s.primitive, away - arrays.normalisation.centre);
+        const SceneDescription scene = make(gap);
+        arrays = flatten(scene, RenderSettings{}, 1);
         constexpr int edge = 64;
-        const Picture picture = render(*s.kernels, arrays, camera, RenderSettings{}, edge, edge);
+        const Picture picture = render(*s.kernels, arrays, scene.camera, RenderSettings{}, edge, edge);
         std::uint64_t lost = 0;
         for (const float value : picture.film.rgb[0]) lost += value == 1.0f ? 0 : 1;
         if (lost > 0) {

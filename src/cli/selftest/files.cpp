@@ -49,8 +49,9 @@ void test_half_file(const Block& block, Tally& tally) {
             beyond += std::fabs(double{value}) > 65504 ? 1 : 0;
         }
     if (count_beyond_half(film) != beyond) tally.fail("the count of values beyond half is wrong");
-    const std::filesystem::path file = std::filesystem::temp_directory_path() /
-                                       ("lanecast-selftest-" + std::to_string(::getpid()) + "-" + std::to_string(block.seed) + ".exr");
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() /
+        ("lanecast-selftest-" + std::to_string(::getpid()) + "-" + std::to_string(block.seed) + ".exr");
     write_exr(file, film);
     const Film read = read_exr(file);
     std::filesystem::remove(file);
@@ -58,7 +59,8 @@ void test_half_file(const Block& block, Tally& tally) {
         for (std::size_t i = 0; i < film.rgb[c].size(); ++i) {
             ++tally.rays;
             const float value = read.rgb[c][i];
-            if (!std::isfinite(value)) tally.fail(std::to_string(film.rgb[c][i]) + " was written as " + std::to_string(value));
+            if (!std::isfinite(value))
+                tally.fail(std::to_string(film.rgb[c][i]) + " was written as " + std::to_string(value));
             else if (double{value} != rounded_to_half(double{film.rgb[c][i]}))
                 tally.fail(std::to_string(film.rgb[c][i]) + " was rounded to " + std::to_string(value));
         }

@@ -70,7 +70,8 @@ void test_threads(const Block& block, Tally& tally) {
 
 namespace {
 
-/// p99 of |t - t_reference| in ulp, over the rays that both say hit the same: of all, and of each half, whose difference is the noise.
+/// p99 of |t - t_reference| in ulp, over the rays that both say hit the same: of all, and of each half, whose difference is the
+/// noise.
 struct Errors {
     double p99, noise;
 };
@@ -97,8 +98,8 @@ double rmse(const Film& a, const Film& b) {
 
 } // namespace
 
-/// `fast` should not be nearer to the reference than `balanced`: in p99 of t by more than its noise, in RMSE of a picture by more than
-/// half. The error is the ratio of the two RMSE.
+/// `fast` should not be nearer to the reference than `balanced`: in p99 of t by more than its noise, in RMSE of a picture by more
+/// than half. The error is the ratio of the two RMSE.
 void test_preset_order(const Block& block, Tally& tally) {
     Random random(block.seed);
     const Setting& s = block.setting;

@@ -8,7 +8,8 @@
 #include "cli/selftest/scenes.hpp"
 #include "render/camera.hpp"
 #include "render/dispatch.hpp"
-#include "render/pick.hpp"
+#include "render/tiles.hpp"
+#include "scene/aligned_bytes.hpp"
 #include "scene/flatten.hpp"
 
 #include <algorithm>
@@ -115,37 +116,85 @@ int face_of(const TraceRecord& record) {
 
 } // namespace
 
+namespace {
+
+/// The rays of single pixels; memory is kept from pixel to pixel, most of which a path of 1000 levels touches.
+class PathTracer {
+public:
+    explicit PathTracer(const KernelTable& kernels) : kernels_(kernels), records_(levels + 8) {}
+
+    const std::vector<TraceRecord>& trace(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, int x,
+                                          int y) {
+        FrameOptions options;
+        options.width = options.height = 16;
+        options.tile_size = 1;
+        RenderJob job = make_job(scene, camera, settings, options);
+        const PixelOrder order = morton_order(1);
+        job.pixel_order[0] = order.x.data();
+        job.pixel_order[1] = order.y.data();
+        job.pixel_order_count = order.count;
+        const Tile pixel{x, y, x + 1, y + 1};
+        Film film = make_film(16, 16, pixel);
+        job.film = view(film);
+        TraceLight light{};
+        TraceLog log{.rays = records_.data(),
+                     .lights = &light,
+                     .ray_capacity = levels + 8,
+                     .light_capacity = 1,
+                     .ray_count = 0,
+                     .light_count = 0};
+        job.log = &log;
+        if (const std::uint64_t bytes = kernels_.scratch_bytes(job); bytes > bytes_) {
+            scratch_ = make_aligned_bytes(bytes);
+            bytes_ = bytes;
+        }
+        static_cast<void>(kernels_.render_tile(job, pixel, scratch_.get()));
+        count = std::min(log.ray_count, levels + 8);
+        return records_;
+    }
+    static constexpr std::int32_t levels = 1001;
+    std::int32_t count = 0; ///< of the last path
+
+private:
+    const KernelTable& kernels_;
+    std::vector<TraceRecord> records_;
+    AlignedBytes scratch_;
+    std::uint64_t bytes_ = 0;
+};
+
+} // namespace
+
 /// A thousand mirrorings against the same in double. Failure: another face; error: of the last point, in half edges.
 void test_mirror_cube(const Block& block, Tally& tally) {
     Random random(block.seed);
     const Setting& s = block.setting;
-    const KernelTable& reference = find_kernels("auto", Precision::reference);
+    PathTracer ours(*s.kernels), exact(find_kernels("auto", Precision::reference));
     RenderSettings settings;
     settings.depth = 1000;
-    FrameOptions options;
-    options.width = options.height = 16;
     std::uint64_t rays = 0;
     rusage before{}, after{};
     ::getrusage(RUSAGE_SELF, &before);
     while (rays < block.rays) {
         const SceneDescription scene = mirror_cube(s.primitive, random);
         const SceneArrays arrays = flatten(scene, settings, 1);
-        const int x = random.below(16), y = random.below(16);
-        const PixelTrace a = trace_pixel(*s.kernels, arrays, scene.camera, settings, options, x, y);
-        const PixelTrace b = trace_pixel(reference, arrays, scene.camera, settings, options, x, y);
-        rays += a.rays.size() + b.rays.size();
-        tally.rays += 1; // paths: what the target counts
-        const std::size_t length = std::min(a.rays.size(), b.rays.size());
-        std::size_t k = 0;
-        while (k < length && (a.rays[k].slot < 0) == (b.rays[k].slot < 0) && face_of(a.rays[k]) == face_of(b.rays[k])) ++k;
-        if (k < 1001) {
-            tally.fail("another face after " + std::to_string(k) + " mirrorings");
-            continue;
+        for (int pixel = 0; pixel < 16; ++pixel) {
+            const int x = random.below(16), y = random.below(16);
+            const auto& a = ours.trace(arrays, scene.camera, settings, x, y);
+            const auto& b = exact.trace(arrays, scene.camera, settings, x, y);
+            rays += PathTracer::levels;
+            tally.rays += 1; // paths: what the target counts
+            const auto length = static_cast<std::size_t>(std::min(ours.count, exact.count));
+            std::size_t k = 0;
+            while (k < length && (a[k].slot < 0) == (b[k].slot < 0) && face_of(a[k]) == face_of(b[k])) ++k;
+            if (k < 1001) {
+                tally.fail("another face after " + std::to_string(k) + " mirrorings");
+                continue;
+            }
+            double error = 0;
+            for (int axis = 0; axis < 3; ++axis)
+                error = std::max(error, std::fabs(double{a[1000].point[axis]} - double{b[1000].point[axis]}));
+            tally.add_error(error / arrays.normalisation.scale);
         }
-        double error = 0;
-        for (int axis = 0; axis < 3; ++axis)
-            error = std::max(error, std::fabs(double{a.rays[1000].point[axis]} - double{b.rays[1000].point[axis]}));
-        tally.add_error(error / arrays.normalisation.scale);
     }
     ::getrusage(RUSAGE_SELF, &after);
     if (after.ru_maxrss - before.ru_maxrss > 256 * 1024) tally.fail("memory grew by more than 256 MiB");
@@ -153,14 +202,15 @@ void test_mirror_cube(const Block& block, Tally& tally) {
 
 namespace {
 
-/// Schlick's term for a ray from index n1 into n2, and how far a kernel's may be off: `cosine` is off by a few roundings, and near
-/// the critical angle the cosine of the other side by the root of them.
+/// Schlick's term for a ray from index n1 into n2, and how far a kernel's may be off: `cosine` is off by a few roundings, and
+/// near the critical angle the cosine of the other side by the root of them.
 struct Fresnel {
     double value, slack;
     bool total;
 };
 Fresnel schlick(double n1, double n2, double cosine) {
-    const double sine2 = (1 - cosine * cosine) * (n1 / n2) * (n1 / n2), rounding = 16 * 0x1p-24 * std::max(1.0, n1 * n1 / (n2 * n2));
+    const double sine2 = (1 - cosine * cosine) * (n1 / n2) * (n1 / n2),
+                 rounding = 16 * 0x1p-24 * std::max(1.0, n1 * n1 / (n2 * n2));
     const double k = 1 - sine2;
     if (n1 > n2 && k <= 0) return {1, std::fabs(k) <= rounding ? 5 * std::sqrt(rounding) : 0, true};
     const double c = 1 - (n1 > n2 ? std::sqrt(k) : cosine), r0 = (n1 - n2) / (n1 + n2) * ((n1 - n2) / (n1 + n2));
@@ -202,7 +252,8 @@ void test_fresnel(const Block& block, Tally& tally) {
         std::vector<Angle> angles;
         for (int y = 0; y < edge; ++y)
             for (int x = 0; x < edge; ++x) {
-                const double sx = (x + 0.5 - 0.5 * edge) * double{record.pixel}, sy = (0.5 * edge - (y + 0.5)) * double{record.pixel};
+                const double sx = (x + 0.5 - 0.5 * edge) * double{record.pixel},
+                             sy = (0.5 * edge - (y + 0.5)) * double{record.pixel};
                 glm::dvec3 d;
                 for (int axis = 0; axis < 3; ++axis)
                     d[axis] = double{record.forward[axis]} + sx * double{record.right[axis]} + sy * double{record.up[axis]};

@@ -29,15 +29,16 @@ const char* verdict(const Progress& p) {
 
 std::string table_header() {
     return left("case", 30) + right("rays", 10) + right("failures", 10) + right("worst", 10) + right("p99", 10) +
-           right("time", 10) + "  " + left("target", 34) + "\n";
+           right("mean", 10) + right("time", 10) + "  " + left("target", 34) + "\n";
 }
 
 std::string table_row(const Progress& p) {
     const bool errors = !p.tally.errors.empty();
     std::string row = left(name_of(*p.c), 30) + right(short_count(static_cast<double>(p.tally.rays)), 10) +
                       right(std::to_string(p.tally.failures), 10) + right(errors ? three_digits(p.tally.worst) : "-", 10) +
-                      right(errors ? three_digits(p.tally.percentile(0.99)) : "-", 10) + right(short_seconds(p.seconds), 10) +
-                      "  " + left(text_of(p.c->target), 34) + verdict(p) + "\n";
+                      right(errors ? three_digits(p.tally.percentile(0.99)) : "-", 10) +
+                      right(errors ? three_digits(p.tally.mean()) : "-", 10) + right(short_seconds(p.seconds), 10) + "  " +
+                      left(text_of(p.c->target), 34) + verdict(p) + "\n";
     if (p.tally.failures > 0) row += "    " + p.tally.example + "\n";
     return row;
 }
@@ -58,6 +59,7 @@ std::string json_report(const std::string& run, const std::vector<Progress>& all
             json.add("worst", p.tally.worst);
             json.add("p50", p.tally.percentile(0.5));
             json.add("p99", p.tally.percentile(0.99));
+            json.add("mean", p.tally.mean());
             json.add("unit", p.c->target.unit);
         }
         json.add("target", text_of(p.c->target));

@@ -15,8 +15,8 @@ namespace lanecast::selftest {
 namespace {
 
 const char* awkward(Random& random) {
-    constexpr const char* numbers[] = {"0",     "1",     "-1",    "0.5",  "1e20",  "-1e20", "1e-20",  "1e-45", "1e38",
-                                       "-1e38", "3e38",  "1e300", "180",  "179.9", "90",    "1e-300", "-0.0",  "1e9",
+    constexpr const char* numbers[] = {"0",     "1",     "-1",    "0.5",  "1e20",  "-1e20", "1e-20",   "1e-45", "1e38",
+                                       "-1e38", "3e38",  "1e300", "180",  "179.9", "90",    "1e-300",  "-0.0",  "1e9",
                                        "2",     "1e400", "NaN",   "1e15", "65504", "1e-8",  "16777217"};
     return numbers[static_cast<std::size_t>(random.below(std::size(numbers)))];
 }
@@ -28,7 +28,6 @@ std::string triple(Random& random, double size, double odd) {
     const glm::dvec3 p = random.point(size);
     return "[" + number(random, p.x, odd) + "," + number(random, p.y, odd) + "," + number(random, p.z, odd) + "]";
 }
-
 
 std::string shape(Random& random, double odd) {
     switch (random.below(5)) {
@@ -102,7 +101,8 @@ void test_torture(const Block& block, Tally& tally) {
             const Picture picture = render(*block.setting.kernels, scene, loaded.description.camera, settings, 16, 16, 16);
             std::uint64_t bad = 0;
             for (const auto& plane : picture.film.rgb)
-                bad += static_cast<std::uint64_t>(std::count_if(plane.begin(), plane.end(), [](float x) { return std::isnan(x); }));
+                bad +=
+                    static_cast<std::uint64_t>(std::count_if(plane.begin(), plane.end(), [](float x) { return std::isnan(x); }));
             if (bad > 0) tally.fail("NaN in the picture of " + text);
             tally.rays += picture.rays();
         } catch (const Error& error) {

@@ -81,7 +81,9 @@ void score_bodies(const Block& block, bool normals, Tally& tally) {
             continue;
         }
         const float* const m = record.object_from_world;
-        const auto column = [&](int c) { return Real(m[c]) * met.normal.x + Real(m[c + 3]) * met.normal.y + Real(m[c + 6]) * met.normal.z; };
+        const auto column = [&](int c) {
+            return Real(m[c]) * met.normal.x + Real(m[c + 3]) * met.normal.y + Real(m[c + 6]) * met.normal.z;
+        };
         const RealVec exact{column(0), column(1), column(2)}, found{Real(n[0][i]), Real(n[1][i]), Real(n[2][i])};
         tally.add_error(static_cast<double>(length(cross(exact, found)) / (length(exact) * length(found))));
     }

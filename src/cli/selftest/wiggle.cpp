@@ -8,8 +8,8 @@
 
 namespace lanecast::selftest {
 
-bool is_answer(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& d, int object, float t) {
-    constexpr double rounding = 4 * 0x1p-24;
+bool is_answer(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& d, double roundings, int object, float t) {
+    const double rounding = roundings * 0x1p-24;
     Random random(1);
     Rays rays;
     const double reach = rounding * (glm::length(o) + 1), turn = rounding * glm::length(d);

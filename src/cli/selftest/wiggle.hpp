@@ -5,8 +5,9 @@
 
 namespace lanecast::selftest {
 
-/// What the double-precision kernels find when each coordinate of the ray is moved by up to four of its roundings: the object
-/// `object` (-1: nothing) at a t within them, give or take 4 ulp.
-[[nodiscard]] bool is_answer(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& d, int object, float t);
+/// What the double-precision kernels find when each coordinate of the ray is moved by up to so many of its roundings: the object
+/// `object` (-1: nothing) at a t within what they find, give or take 4 ulp.
+[[nodiscard]] bool is_answer(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& d, double roundings, int object,
+                             float t);
 
 } // namespace lanecast::selftest
