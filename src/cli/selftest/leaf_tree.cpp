@@ -11,7 +11,7 @@ namespace {
 struct Item {
     float lo[3], hi[3];
     PrimitiveKind kind;
-    std::vector<std::uint32_t> slots; ///< of the old scene: one triangle, or a leaf of quadrics
+    std::vector<std::uint32_t> slots; ///< of the old scene
 };
 
 void include(Item& box, const Item& other) {
@@ -56,10 +56,11 @@ void list_items(const SceneArrays& arrays, std::uint64_t node_word, std::vector<
             for (std::uint32_t k = 0; k < count_of(child); ++k) items.push_back(triangle_item(arrays, first + k));
             continue;
         }
-        Item item{{}, {}, kind, {}};
-        for (int axis = 0; axis < 3; ++axis) item.lo[axis] = node.lo[axis][i], item.hi[axis] = node.hi[axis][i];
-        for (std::uint32_t k = 0; k < count_of(child); ++k) item.slots.push_back(first + k);
-        items.push_back(item);
+        for (std::uint32_t k = 0; k < count_of(child); ++k) { // quadrics of one leaf: each in the box of all
+            Item item{{}, {}, kind, {first + k}};
+            for (int axis = 0; axis < 3; ++axis) item.lo[axis] = node.lo[axis][i], item.hi[axis] = node.hi[axis][i];
+            items.push_back(item);
+        }
     }
 }
 
@@ -159,9 +160,8 @@ SceneArrays with_leaves_of(const SceneArrays& arrays, int leaf_size) {
     std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.kind < b.kind; });
     for (std::size_t begin = 0; begin < items.size();) {
         std::size_t end = begin;
-        bool joined = false; // quadrics that share a leaf already
-        for (; end < items.size() && items[end].kind == items[begin].kind; ++end) joined = joined || items[end].slots.size() > 1;
-        make_leaves(items.data() + begin, end - begin, joined ? 1 : static_cast<std::size_t>(leaf_size), leaves);
+        while (end < items.size() && items[end].kind == items[begin].kind) ++end;
+        make_leaves(items.data() + begin, end - begin, static_cast<std::size_t>(leaf_size), leaves);
         begin = end;
     }
     SceneArrays to;

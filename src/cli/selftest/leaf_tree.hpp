@@ -5,8 +5,8 @@
 
 namespace lanecast::selftest {
 
-/// Leaves of `leaf_size` triangles, and of as many quadrics of a kind: all but the last of a kind, or those that the tree of
-/// `arrays` had joined. `arrays` has no leaves of shared triangles. Slots are numbered anew.
+/// Leaves of `leaf_size` primitives, but for the last of each kind. `arrays` has no leaves of shared triangles. Slots are
+/// numbered anew.
 [[nodiscard]] SceneArrays with_leaves_of(const SceneArrays& arrays, int leaf_size);
 
 } // namespace lanecast::selftest

@@ -116,8 +116,9 @@ int run(const SelftestRequest& request) {
     const auto save = [&] {
         if (!request.resume.empty()) write_state(request.resume, what, all);
     };
-    print_result(what + "\n\n" + table_header());
     const InterruptScope interrupt;
+    print_result(what + "\n\n" + table_header());
+    if (!request.resume.empty()) print_message("selftest: started; its state is kept in " + request.resume);
     bool met = true;
     for (std::size_t i = 0; i < all.size(); ++i) {
         run_case(plans[i], kernels, threads, interrupt.stop(), all[i], save);

@@ -14,7 +14,10 @@ bool is_answer(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& d,
     Rays rays;
     const double reach = rounding * (glm::length(o) + 1), turn = rounding * glm::length(d);
     rays.add(o, d);
-    for (int i = 0; i < 64; ++i) rays.add(o + random.point(reach), d + random.point(turn));
+    for (int i = 0; i < 2000; ++i) { // many: of a thin tip few rays are met
+        const double share = random.magnitude(0.01, 1);
+        rays.add(o + random.point(reach * share), d + random.point(turn * share));
+    }
     const Hits hits = ask(find_kernels("auto", Precision::reference), scene, rays, Path::batch);
     double lo = 1e300, hi = -1e300;
     bool found = false;

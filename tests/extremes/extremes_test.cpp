@@ -1,0 +1,64 @@
+// The invariants at the extremes (numerics N1 to N23), as `lanecast selftest` runs them.
+
+#include "cli/selftest/report.hpp"
+#include "cli/selftest/run.hpp"
+#include "render/dispatch.hpp"
+#include "scene/thread_count.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+
+using namespace lanecast;
+using namespace lanecast::selftest;
+
+namespace {
+
+#ifdef LANECAST_SANITIZED
+constexpr std::uint64_t fewer = 100;
+#else
+constexpr std::uint64_t fewer = 1;
+#endif
+
+/// Targets that are missed today (docs/extremes.md says why), and what they are not to fall behind.
+const std::map<std::string, Target> known_misses{
+    {"N3 near", {.failure_rate = 2e-5}},
+    {"N3 far", {.failure_rate = 2e-5}},
+    {"N10 far, off centre", {.failure_rate = 0.05, .worst = 8}},
+    {"N10 huge, off centre", {.worst = 1e8}},
+    {"N11 sides", {.failure_rate = 1e-3, .p99 = 4}},
+    {"N13 normals", {.worst = 5e-6, .p99 = 1e-6}},
+    {"N17", {.failure_rate = 0.03, .mean = 1e-4}},
+};
+
+std::vector<const KernelTable*> all_kernels() {
+    std::vector<const KernelTable*> tables{&find_kernels("scalar", Precision::reference)};
+    for (const IsaInfo& isa : known_isas()) {
+        if (!isa.compiled || !isa.supported) continue;
+        tables.push_back(&find_kernels(isa.name, Precision::balanced));
+        if (isa.fast) tables.push_back(&find_kernels(isa.name, Precision::fast));
+    }
+    return tables;
+}
+
+} // namespace
+
+TEST_CASE("the invariants of docs/extremes.md hold") {
+    const std::vector<const KernelTable*> kernels = all_kernels();
+    const std::atomic<bool> stop{false};
+    for (const Case& c : all_cases()) {
+        const Plan plan = make_plan(c, kernels, c.quick_rays / fewer);
+        Progress progress;
+        progress.c = &c;
+        progress.planned = plan.blocks;
+        run_case(plan, kernels, default_thread_count(), stop, progress, [] {});
+        const auto known = known_misses.find(selftest::name_of(c));
+        const bool met = is_met(c.target, progress.tally) || c.target.listed;
+        const bool as_known = known != known_misses.end() && is_met(known->second, progress.tally);
+        MESSAGE(table_row(progress));
+        // times are the machine's; they are for `lanecast selftest` to judge
+        if (selftest::name_of(c) == "N15 time") continue;
+        CHECK_MESSAGE((met || as_known), c.id, " ", c.part, ": ", c.statement);
+        CHECK(progress.tally.rays > 0);
+    }
+}
