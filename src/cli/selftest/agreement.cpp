@@ -104,14 +104,16 @@ bool in_pieces(const KernelTable& kernels, const SceneView& scene, const Rays& r
 
 } // namespace
 
-void test_lanes(const Block& block, Tally& tally) {
+namespace {
+
+void compare_company(const Block& block, double farthest, Tally& tally) {
     Random random(block.seed);
     const Setting& s = block.setting;
     const SceneArrays scene = make_scene(s, 8 + random.below(100), random);
     const SceneView view = lanecast::view(scene);
     const KernelTable& partner = partner_of(block, random);
     for_each_piece(block, [&](std::uint64_t count) {
-        const Rays rays = random_rays(scene, count, 1e6, random);
+        const Rays rays = random_rays(scene, count, farthest, random);
         const Hits first = ask(*s.kernels, view, rays, s.path);
         Rays mixed = rays;
         const std::vector<std::uint32_t> from = shuffle(mixed, random.bits());
@@ -124,5 +126,10 @@ void test_lanes(const Block& block, Tally& tally) {
         tally.rays += rays.size();
     });
 }
+
+} // namespace
+
+void test_lanes(const Block& block, Tally& tally) { compare_company(block, 100, tally); }
+void test_lanes_from_afar(const Block& block, Tally& tally) { compare_company(block, 1e6, tally); }
 
 } // namespace lanecast::selftest

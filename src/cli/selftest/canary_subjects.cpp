@@ -1,4 +1,4 @@
-#include "canary_subjects.hpp"
+#include "cli/selftest/canary_subjects.hpp"
 
 #include <cmath>
 

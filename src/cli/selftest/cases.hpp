@@ -14,6 +14,7 @@ void test_tree_leaks_at_vertices(const Block& block, Tally& tally);
 void test_tree_is_brute_force(const Block& block, Tally& tally);
 void test_tree_from_afar(const Block& block, Tally& tally);
 void test_lanes(const Block& block, Tally& tally);
+void test_lanes_from_afar(const Block& block, Tally& tally);
 // motions.cpp
 void test_translated(const Block& block, Tally& tally);
 void test_turned(const Block& block, Tally& tally);

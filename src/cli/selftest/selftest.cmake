@@ -35,6 +35,7 @@ target_include_directories(lanecast_selftest PRIVATE ${CMAKE_BINARY_DIR}/generat
 foreach(isa IN LISTS lanecast_isas lanecast_fast_isas)
   add_library(lanecast_canaries_${isa} OBJECT cli/selftest/canary_subjects.cpp)
   lanecast_isa_flags(lanecast_canaries_${isa} ${isa})
+  target_include_directories(lanecast_canaries_${isa} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(lanecast_canaries_${isa} PRIVATE LANECAST_CANARY=canary_${isa})
   target_sources(lanecast_selftest PRIVATE $<TARGET_OBJECTS:lanecast_canaries_${isa}>)
 endforeach()
