@@ -61,7 +61,7 @@ std::string nearest(const CLI::App& command, const std::string& word) {
 std::string explanation(const CLI::App& command, const CLI::ParseError& error) {
     const auto extras = command.remaining();
     const bool no_command = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && command.get_parent() == nullptr;
-    if (extras.empty() && no_command) return "a command is required: render, check, info, pick, diff, bench, measure or schema";
+    if (extras.empty() && no_command) return "a command is required: render, check, info, pick, diff, bench, measure, selftest or schema";
     const bool not_known = no_command || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
     if (extras.empty() || !not_known) return error.what();
     const std::string near = nearest(command, extras.front());

@@ -37,7 +37,7 @@ LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r
     if (none(hit)) return {tc, tc, hit};
 
     const F h = sqrt(max(disc, F(0)) * inv_dd);
-    const F tm = tc + k;
+    const F tm = (tc + k) + F(0); // no -0, whose sign would choose the far root: fused negations differ in it
     const F far = tm + copysign(h, tm);
     F near = tm - copysign(h, tm);
     // close to the surface tm - h cancels: the product of the roots does not
