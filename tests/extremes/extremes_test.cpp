@@ -24,8 +24,6 @@ constexpr std::uint64_t fewer = 1;
 const std::map<std::string, Target> known_misses{
     {"N3 far", {.failure_rate = 2e-6}},
     {"N4 far", {.failure_rate = 2e-6}},
-    {"N10 far, off centre", {.failure_rate = 0.05, .worst = 8}},
-    {"N10 huge, off centre", {.worst = 1e8}},
     {"N11 sides", {.failure_rate = 1e-3, .p99 = 4}},
     {"N13 normals", {.worst = 5e-6, .p99 = 1e-6}},
     {"N17", {.failure_rate = 0.03, .mean = 1e-4}},

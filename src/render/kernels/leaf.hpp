@@ -200,7 +200,7 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const std::uint32_t i = vector * width<F>;
                 const Crossing<F> ends =
-                    cross_sphere(packet.origin(i) - centre, packet.direction(i), F(S(sphere.radius)), Mask<F>(true));
+                    cross_sphere(packet.origin(i), centre, packet.direction(i), F(S(sphere.radius)), Mask<F>(true));
                 if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
             });
         } else if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {

@@ -14,10 +14,19 @@ struct Crossing {
     Mask<F> hit;
 };
 
-/// A sphere of radius r, f = org - centre. The closest approach is refined once with the product exact (`fused`), so that the
-/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and docs/numerics.md.
+/// What fl(a - b) = f lacks of a - b, exactly (Knuth's two-sum).
 template <FloatBatch F>
-LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r, Mask<F> active) {
+LANECAST_INLINE F lost(F a, F b, F f) {
+    const F b_of_f = f - a;
+    return (a - (f - b_of_f)) - (b + b_of_f);
+}
+
+/// A sphere of radius r about `centre`, f = fl(org - centre). What that rounding lost, relative to the distance, is put back at the
+/// closest approach: only where a ray comes near, and not for bodies in their own space. The closest approach is refined once with the product exact (`fused`), so that the
+/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and docs/numerics.md.
+template <bool centred, FloatBatch F>
+LANECAST_INLINE Crossing<F> cross_sphere_at(const Vec3<F>& org, const Vec3<F>& centre, const Vec3<F>& f, const Vec3<F>& d, F r,
+                                            Mask<F> active) {
     using S = Scalar<F>;
     const F inv_dd = F(1) / dot(d, d);
     const F tc = -dot(f, d) * inv_dd;
@@ -28,7 +37,10 @@ LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r
     const Mask<F> close = active & (dot(rough, rough) <= reach * reach);
     if (none(close)) return {tc, tc, close};
 
+    Vec3<F> low{};
+    if constexpr (!centred) low = {lost(org.x, centre.x, f.x), lost(org.y, centre.y, f.y), lost(org.z, centre.z, f.z)};
     Vec3<F> l = fused(d, tc, f);
+    if constexpr (!centred) l = l + low;
     const F k = -dot(l, d) * inv_dd;
     l = fused(d, k, l);
     const F l_length = length(l);
@@ -42,8 +54,20 @@ LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& f, const Vec3<F>& d, F r
     F near = tm - copysign(h, tm);
     // close to the surface tm - h cancels: the product of the roots does not
     const Mask<F> cancels = hit & (abs(tm) <= F(2) * h);
-    if (any(cancels)) near = select(cancels, sum_of_squares_less(f.x, f.y, f.z, r) * inv_dd / far, near);
+    if (any(cancels)) {
+        F product = sum_of_squares_less(f.x, f.y, f.z, r);
+        if constexpr (!centred) product = product + F(S(2)) * dot(f, low);
+        near = select(cancels, product * inv_dd / far, near);
+    }
     return {min(near, far), max(near, far), hit};
+}
+template <FloatBatch F>
+LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& org, const Vec3<F>& centre, const Vec3<F>& d, F r, Mask<F> active) {
+    return cross_sphere_at<false>(org, centre, org - centre, d, r, active);
+}
+template <FloatBatch F>
+LANECAST_INLINE Crossing<F> cross_sphere(const Vec3<F>& org, const Vec3<F>& d, F r, Mask<F> active) {
+    return cross_sphere_at<true>(org, org, org, d, r, active);
 }
 
 /// Which surface of a cylinder or cone bounds each end of the crossing. Without its caps it is met at the other ends.

@@ -95,7 +95,7 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
     bool open0 = false, open1 = false; // an end where the body has no surface
     if (kind == PrimitiveKind::sphere) {
         const SphereRecord& sphere = sphere_at(scene, slot);
-        ends = cross_sphere<S>(org - splat<S>(sphere.centre), dir, S(sphere.radius), true);
+        ends = cross_sphere<S>(org, splat<S>(sphere.centre), dir, S(sphere.radius), true);
     } else {
         const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
         const Vec3<S> o = point_to_object<S>(affine, org), d = direction_to_object<S>(affine, dir);
