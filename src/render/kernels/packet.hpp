@@ -35,8 +35,9 @@ struct Packet {
     alignas(64) S org[3][stride];
     S dir[3][stride];
     // Slabs: a box is entered at max((near - org_near) * rcp), left at min((far - org_far) * rcp). The origins are moved apart by
-    // 16 u (|org| + M), M the scene's largest coordinate, which covers the rounding of the slab test (6 u), that of the sheared
-    // vertices (3 u) and of the quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
+    // 16 u (|org| + M), |org| its largest component, for a body's matrix turns the rounding of one into others, and M the scene's
+    // largest coordinate. This covers the rounding of the slab test (6 u), that of the sheared vertices (3 u) and of the
+    // quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
     S org_near[3][stride];
     S org_far[3][stride];
     S rcp[3][stride];
@@ -155,11 +156,15 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         store(packet.shear[2] + i, inv_dz);
         // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
         const F least = abs(dz) * F(S(8.7e-19));
+        const F apart_by = (max(max(abs(load<F>(packet.org[0] + i)), abs(load<F>(packet.org[1] + i))),
+                                abs(load<F>(packet.org[2] + i))) +
+                            largest) *
+                           F(S(9.6e-7)); // 16 u
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F o = load<F>(packet.org[axis] + i);
             const F d = load<F>(packet.dir[axis] + i);
-            const F away = along[axis] * ((abs(o) + largest) * F(S(9.6e-7))); // 16 u
+            const F away = along[axis] * apart_by;
             const F rcp = axis == kz ? inv_dz : F(1) / copysign(max(abs(d), least), along[axis]);
             const F o_near = o + away, o_far = o - away;
             store(packet.rcp[axis] + i, rcp);

@@ -21,9 +21,10 @@ LANECAST_INLINE F lost(F a, F b, F f) {
     return (a - (f - b_of_f)) - (b + b_of_f);
 }
 
-/// A sphere of radius r about `centre`, f = fl(org - centre). What that rounding lost, relative to the distance, is put back at the
-/// closest approach: only where a ray comes near, and not for bodies in their own space. The closest approach is refined once with the product exact (`fused`), so that the
-/// discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and Akenine-Moeller 2019, and docs/numerics.md.
+/// A sphere of radius r about `centre`, f = fl(org - centre). What that rounding lost, relative to the distance, is put back at
+/// the closest approach: only where a ray comes near, and not for bodies in their own space. The closest approach is refined once
+/// with the product exact (`fused`), so that the discriminant (r - l)(r + l) keeps its digits far away; Haines, Guenther and
+/// Akenine-Moeller 2019, and docs/numerics.md.
 template <bool centred, FloatBatch F>
 LANECAST_INLINE Crossing<F> cross_sphere_at(const Vec3<F>& org, const Vec3<F>& centre, const Vec3<F>& f, const Vec3<F>& d, F r,
                                             Mask<F> active) {
