@@ -30,7 +30,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 Outcome render(const std::filesystem::path& directory, const std::string& scene, const std::string& name,
                const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"render", scene, "--size", "32x24", "-o", name};
+    std::vector<std::string> arguments{"render", scene, "--size", "16x12", "-o", name};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments, {.directory = directory, .seconds = 300});
 }

@@ -33,8 +33,8 @@ struct Stage {
         arrays = flatten(scene, settings, 2);
         bench.scene = &arrays;
         bench.camera = &scene.camera;
-        bench.options.width = 40;
-        bench.options.height = 30;
+        bench.options.width = 24;
+        bench.options.height = 18;
         bench.options.threads = 2;
         bench.sample = every_tile(bench.options);
     }
@@ -279,7 +279,7 @@ TEST_CASE("an experiment: every value of every knob once, own errors are the kno
         CHECK(trial.low <= trial.seconds);
         CHECK(trial.seconds <= trial.high);
         CHECK(trial.file_seconds > 0);
-        CHECK(trial.rays >= 40 * 30);
+        CHECK(trial.rays >= 24 * 18);
     }
     CHECK(!report.walk.empty());
     CHECK(!report.front.empty());
