@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <map>
 
 using namespace lanecast;
@@ -44,7 +45,7 @@ TEST_CASE("the invariants of docs/extremes.md hold") {
     const std::vector<const KernelTable*> kernels = all_kernels();
     const std::atomic<bool> stop{false};
     for (const Case& c : all_cases()) {
-        const Plan plan = make_plan(c, kernels, c.quick_rays / fewer);
+        const Plan plan = make_plan(c, kernels, std::max<std::uint64_t>(c.quick_rays / fewer, 65536));
         Progress progress;
         progress.c = &c;
         progress.planned = plan.blocks;
