@@ -22,19 +22,9 @@ inline constexpr int fewer = 1;
 constexpr int cases(int n) { return n / fewer > 0 ? n / fewer : 1; }
 
 /// The balanced kernels that this build holds and this CPU runs, scalar first.
-inline std::vector<const KernelTable*> balanced_kernels() {
-    std::vector<const KernelTable*> tables;
-    for (const IsaInfo& isa : known_isas())
-        if (isa.compiled && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::balanced));
-    return tables;
-}
+inline std::vector<const KernelTable*> balanced_kernels() { return usable_kernels(Precision::balanced); }
 /// The fast ones, slowest first; none in a build without them.
-inline std::vector<const KernelTable*> fast_kernels() {
-    std::vector<const KernelTable*> tables;
-    for (const IsaInfo& isa : known_isas())
-        if (isa.fast && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::fast));
-    return tables;
-}
+inline std::vector<const KernelTable*> fast_kernels() { return usable_kernels(Precision::fast); }
 inline const KernelTable& scalar_kernels() { return find_kernels("scalar", Precision::balanced); }
 inline const KernelTable& reference_kernels() { return find_kernels("auto", Precision::reference); }
 

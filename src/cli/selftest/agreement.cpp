@@ -3,6 +3,7 @@
 #include "cli/selftest/cases.hpp"
 #include "cli/selftest/leaf_tree.hpp"
 #include "cli/selftest/scenes.hpp"
+#include "render/dispatch.hpp"
 #include "scene/flatten.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ const KernelTable& partner_of(const Block& block, Random& random) {
     const KernelTable& own = *block.setting.kernels;
     std::vector<const KernelTable*> partners;
     for (const KernelTable* other : block.kernels)
-        if (other != &own && other->precision == own.precision) partners.push_back(other);
+        if (other != &own && same_numbers(other->precision, own.precision)) partners.push_back(other);
     if (partners.empty()) return own;
     if (partners.front()->width > 1 || random.chance(1.0 / 16) || partners.size() == 1) return *partners.front();
     return *partners[1 + random.bits() % (partners.size() - 1)];
