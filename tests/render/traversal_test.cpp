@@ -1,5 +1,6 @@
 // Tree = brute force, every ISA = scalar, bit for bit, on rays of every coherence; and what rays that are not rays do.
 
+#include "cli/selftest/scenes.hpp"
 #include "render/ray_support.hpp"
 
 #include <doctest/doctest.h>
@@ -139,7 +140,7 @@ TEST_CASE("the tree finds what testing every primitive finds: scenes far from th
         const glm::dvec3 away = random.direction() * std::exp(random.uniform(-10, 10)) * (n % 2 == 0 ? 1.0 : 0.0);
         for (Object& object : scene.objects)
             if (!std::holds_alternative<Plane>(object.shape)) object.transformations.emplace_back(Translation{away});
-        check_scene(random, scaled_scene(scene, random.below(121) - 60), 4, tally);
+        check_scene(random, selftest::scaled_scene(scene, random.below(121) - 60), 4, tally);
     }
     CHECK(tally.hits > tally.rays / 20);
 }
