@@ -183,7 +183,8 @@ TEST_CASE("same bytes in any unit of length: every length times 2^k") {
         const Frame one = shoot(*balanced_kernels().back(), scene, shot);
         for (const int k : {-40, -7, 1, 23, 40}) {
             CAPTURE(k);
-            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), selftest::scaled_scene(scene, k), shot).film) == "");
+            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), selftest::scaled_scene(scene, k), shot).film) ==
+                  "");
         }
     });
 }
