@@ -1,5 +1,6 @@
 // "Same bytes": the film of given settings is one, whatever the instruction set, threads, tiles, crop, tree or unit of length.
 
+#include "cli/selftest/scenes.hpp"
 #include "render/render_support.hpp"
 
 #include <doctest/doctest.h>
@@ -196,7 +197,8 @@ TEST_CASE("same bytes in any unit of length: every length times 2^k") {
         const Frame one = shoot(*balanced_kernels().back(), scene, shot);
         for (const int k : {-40, -7, 1, 23, 40}) {
             CAPTURE(k);
-            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), scaled_scene(scene, k), shot).film) == "");
+            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), selftest::scaled_scene(scene, k), shot).film) ==
+                  "");
         }
     });
 }
