@@ -94,6 +94,16 @@ bool is_exact_quadric(const FlatObject& object, const Normalisation& normalisati
     return is_exact(normalisation, body_of(object).centre);
 }
 
+/// How far from the origin a body may reach in its own space: a cone of taper 2.
+constexpr float largest_reach = 2.07f;
+
+float largest_row_sum(const float (&m)[9]) {
+    float largest = 0;
+    for (int row = 0; row < 9; row += 3)
+        largest = std::max(largest, std::abs(m[row]) + std::abs(m[row + 1]) + std::abs(m[row + 2]));
+    return largest;
+}
+
 BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation, Quadrics& quadrics) {
     const Body body = body_of(flat);
     const glm::dvec3 centre = normalised(normalisation, body.centre);
@@ -116,6 +126,7 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     for (int axis = 0; axis < 3; ++axis) record.translation[axis] = static_cast<float>(centre[axis]) + 0.0f;
     store(record.object_from_world, inverse);
     record.taper = static_cast<float>(body.taper);
+    record.stretch = largest_row_sum(record.object_from_world);
     const glm::dmat3 stored = inverted(loaded(record.object_from_world));
     if (!is_finite(stored)) throw Error(ExitCode::scene, label(flat) + ": is too flat for single precision");
     const DoubleBox stored_box = box_of(flat.kind, stored, body.taper);
@@ -123,6 +134,8 @@ BuildRef add_quadric(const FlatObject& flat, const Normalisation& normalisation,
     if (!(std::min({stored_extent.x, stored_extent.y, stored_extent.z}) >= smallest_size)) too_small(flat);
     AffineShadingRecord shading{};
     store(shading.world_from_object, stored);
+    record.radius = largest_reach * static_cast<float>(std::sqrt(glm::dot(stored[0], stored[0]) + glm::dot(stored[1], stored[1]) +
+                                                                 glm::dot(stored[2], stored[2])));
     quadrics.affines.push_back(record);
     quadrics.affine_shading.push_back(shading);
     const glm::dvec3 stored_centre{record.translation[0], record.translation[1], record.translation[2]};

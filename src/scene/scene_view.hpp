@@ -63,8 +63,10 @@ struct alignas(16) SphereRecord {
 struct alignas(64) AffineRecord {
     float translation[3];
     float object_from_world[9]; ///< row-major: p_object = object_from_world * (p - translation)
-    float taper; ///< cones: -2 to 2
-    float padding[3];
+    float taper;                ///< cones: -2 to 2
+    float stretch;              ///< largest sum of a row of |object_from_world|
+    float radius;               ///< about the translation, of what bounds the body in the world
+    float padding;
 };
 
 /// Cold: read when shading only.

@@ -60,6 +60,7 @@ LANECAST_INLINE Doubles to_double(VectorFloat a) {
     return {_mm256_cvtps_pd(_mm256_castps256_ps128(a.r)), _mm256_cvtps_pd(_mm256_extractf128_ps(a.r, 1))};
 }
 LANECAST_INLINE VectorFloat to_float(Doubles a) { return _mm256_set_m128(_mm256_cvtpd_ps(a.hi), _mm256_cvtpd_ps(a.lo)); }
+LANECAST_INLINE Doubles splat_double(double s) { return {_mm256_set1_pd(s), _mm256_set1_pd(s)}; }
 LANECAST_INLINE Doubles operator+(Doubles a, Doubles b) { return {_mm256_add_pd(a.lo, b.lo), _mm256_add_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator-(Doubles a, Doubles b) { return {_mm256_sub_pd(a.lo, b.lo), _mm256_sub_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator*(Doubles a, Doubles b) { return {_mm256_mul_pd(a.lo, b.lo), _mm256_mul_pd(a.hi, b.hi)}; }

@@ -70,6 +70,7 @@ LANECAST_INLINE Doubles to_double(VectorFloat a) {
 LANECAST_INLINE VectorFloat to_float(Doubles a) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.lo)), _mm512_cvtpd_ps(a.hi), 1);
 }
+LANECAST_INLINE Doubles splat_double(double s) { return {_mm512_set1_pd(s), _mm512_set1_pd(s)}; }
 LANECAST_INLINE Doubles operator+(Doubles a, Doubles b) { return {_mm512_add_pd(a.lo, b.lo), _mm512_add_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator-(Doubles a, Doubles b) { return {_mm512_sub_pd(a.lo, b.lo), _mm512_sub_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator*(Doubles a, Doubles b) { return {_mm512_mul_pd(a.lo, b.lo), _mm512_mul_pd(a.hi, b.hi)}; }

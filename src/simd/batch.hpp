@@ -35,11 +35,11 @@ LANECAST_INLINE VectorInt expand(VectorInt a, VectorMask m) {
 
 template <>
 struct BatchTraits<VectorFloat> {
-    using Scalar = Real;
+    using Scalar = VectorLane;
     using Mask = VectorMask;
     using Int = VectorInt;
     static constexpr int width = vector_width;
-    LANECAST_INLINE static VectorFloat load(const Real* p) { return load_vector(p); }
+    LANECAST_INLINE static VectorFloat load(const VectorLane* p) { return load_vector(p); }
 #if LANECAST_PRECISE
     LANECAST_INLINE static VectorFloat load_eight(const float* p) { return load_floats(p); }
 #elif !defined(__AVX512F__)
@@ -59,10 +59,10 @@ LANECAST_INLINE VectorFloat max(VectorFloat a, VectorFloat b) {
     return VectorFloat::Register(xsimd::max(VectorFloat::Batch(a.r), VectorFloat::Batch(b.r)));
 }
 LANECAST_INLINE VectorFloat abs(VectorFloat a) {
-    return VectorFloat::Register(VectorFloat::Batch(a.r) & ~VectorFloat::Batch(Real(-0.0)));
+    return VectorFloat::Register(VectorFloat::Batch(a.r) & ~VectorFloat::Batch(VectorLane(-0.0)));
 }
 LANECAST_INLINE VectorFloat copysign(VectorFloat magnitude, VectorFloat sign) {
-    const VectorFloat::Batch sign_bit(Real(-0.0));
+    const VectorFloat::Batch sign_bit(VectorLane(-0.0));
     return VectorFloat::Register((VectorFloat::Batch(magnitude.r) & ~sign_bit) | (VectorFloat::Batch(sign.r) & sign_bit));
 }
 LANECAST_INLINE bool any(VectorMask m) { return bits(m) != 0; }
@@ -104,7 +104,8 @@ LANECAST_INLINE VectorFloat split_exponent(VectorFloat x, VectorFloat& e) {
 LANECAST_INLINE VectorFloat power_of_two(VectorFloat n) { return as_float(shift_left(to_int(n) + VectorInt(127), 23).r); }
 #endif
 LANECAST_INLINE VectorFloat round_to_integer(VectorFloat x) {
-    const Real mantissa_end = LANECAST_PRECISE ? Real(6755399441055744.0) : Real(12582912); // 1.5 * 2^52, 1.5 * 2^23
+    const VectorLane mantissa_end =
+        LANECAST_PRECISE ? VectorLane(6755399441055744.0) : VectorLane(12582912); // 1.5 * 2^52, 1.5 * 2^23
     const VectorFloat shift = copysign(VectorFloat(mantissa_end), x);
     return (x + shift) - shift;
 }
@@ -141,6 +142,24 @@ using Eight = typename EightOf<F>::Type;
 #else
 template <FloatBatch F>
 using Eight = F;
+#endif
+
+/// The batch of as many doubles: F itself where it is one.
+template <class F>
+struct InDouble {
+    using Type = std::conditional_t<sizeof(typename BatchTraits<F>::Scalar) == 8, F, double>;
+    LANECAST_INLINE static Type splat(double s) { return Type(s); }
+    LANECAST_INLINE static Type from(F a) { return static_cast<Type>(a); }
+    LANECAST_INLINE static F rounded(Type a) { return static_cast<F>(a); }
+};
+#if LANECAST_VECTOR && !LANECAST_PRECISE
+template <>
+struct InDouble<VectorFloat> {
+    using Type = Doubles;
+    LANECAST_INLINE static Type splat(double s) { return splat_double(s); }
+    LANECAST_INLINE static Type from(VectorFloat a) { return to_double(a); }
+    LANECAST_INLINE static VectorFloat rounded(Type a) { return to_float(a); }
+};
 #endif
 
 /// float, or double for `precise` and the reference.

@@ -51,6 +51,7 @@ struct Doubles {
 };
 LANECAST_INLINE Doubles to_double(VectorFloat a) { return {_mm_cvtps_pd(a.r), _mm_cvtps_pd(_mm_movehl_ps(a.r, a.r))}; }
 LANECAST_INLINE VectorFloat to_float(Doubles a) { return _mm_movelh_ps(_mm_cvtpd_ps(a.lo), _mm_cvtpd_ps(a.hi)); }
+LANECAST_INLINE Doubles splat_double(double s) { return {_mm_set1_pd(s), _mm_set1_pd(s)}; }
 LANECAST_INLINE Doubles operator+(Doubles a, Doubles b) { return {_mm_add_pd(a.lo, b.lo), _mm_add_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator-(Doubles a, Doubles b) { return {_mm_sub_pd(a.lo, b.lo), _mm_sub_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator*(Doubles a, Doubles b) { return {_mm_mul_pd(a.lo, b.lo), _mm_mul_pd(a.hi, b.hi)}; }

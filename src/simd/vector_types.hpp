@@ -8,24 +8,24 @@
 namespace lanecast::inline LANECAST_ISA {
 
 #if LANECAST_PRECISE
-using Real = double;
+using VectorLane = double;
 #else
-using Real = float;
+using VectorLane = float;
 #endif
 
 struct VectorFloat {
-    using Batch = xsimd::batch<Real, Arch>;
+    using Batch = xsimd::batch<VectorLane, Arch>;
     using Register = Batch::register_type;
     Register r;
 
     VectorFloat() = default;
     LANECAST_INLINE VectorFloat(Register register_) : r(register_) {}
-    LANECAST_INLINE VectorFloat(Real s) : r(Batch(s)) {}
+    LANECAST_INLINE VectorFloat(VectorLane s) : r(Batch(s)) {}
     LANECAST_INLINE friend VectorFloat operator+(VectorFloat a, VectorFloat b) { return Register(Batch(a.r) + Batch(b.r)); }
     LANECAST_INLINE friend VectorFloat operator-(VectorFloat a, VectorFloat b) { return Register(Batch(a.r) - Batch(b.r)); }
     LANECAST_INLINE friend VectorFloat operator*(VectorFloat a, VectorFloat b) { return Register(Batch(a.r) * Batch(b.r)); }
     LANECAST_INLINE friend VectorFloat operator/(VectorFloat a, VectorFloat b) { return Register(Batch(a.r) / Batch(b.r)); }
-    LANECAST_INLINE friend VectorFloat operator-(VectorFloat a) { return Register(Batch(a.r) ^ Batch(Real(-0.0))); }
+    LANECAST_INLINE friend VectorFloat operator-(VectorFloat a) { return Register(Batch(a.r) ^ Batch(VectorLane(-0.0))); }
     LANECAST_INLINE VectorFloat& operator+=(VectorFloat b) { return *this = *this + b; }
 };
 

@@ -1,6 +1,7 @@
 // The unit cone against long double: t, rims, tips, rays along the axis, along the side and from far away.
 
 #include "kernels/kernel_support.hpp"
+#include "kernels/object_support.hpp"
 #include "render/kernels/cone.hpp"
 
 #include <doctest/doctest.h>
@@ -78,7 +79,8 @@ template <class Aim>
 Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
     Lottery random(seed);
     const FlushDenormals flush;
-    const auto taper = static_cast<S>(static_cast<float>(taper_));
+    const AffineRecord record = own_space(static_cast<float>(taper_));
+    const auto taper = static_cast<S>(record.taper);
     Score score;
     for (int n = 0; n < rays; n += static_cast<int>(W)) {
         alignas(64) S org[3][W], dir[3][W], t[2][W];
@@ -91,7 +93,7 @@ Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
             }
         }
         const Vec3<F> o{load<F>(org[0]), load<F>(org[1]), load<F>(org[2])}, d{load<F>(dir[0]), load<F>(dir[1]), load<F>(dir[2])};
-        const CappedCrossing<F> crossing = cross_cone(o, d, F(taper), Mask<F>(true));
+        const CappedCrossing<F> crossing = cross_cone(ObjectRay<F>(record, o, d), Mask<F>(true));
         lanecast::store(t[0], crossing.ends.t0);
         lanecast::store(t[1], crossing.ends.t1);
         for (std::uint32_t lane = 0; lane < W; ++lane) {

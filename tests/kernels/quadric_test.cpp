@@ -2,6 +2,7 @@
 // N11).
 
 #include "kernels/kernel_support.hpp"
+#include "kernels/object_support.hpp"
 #include "render/kernels/plane.hpp"
 #include "render/kernels/quadric.hpp"
 
@@ -75,7 +76,8 @@ Score score_sphere(double r, int rays, std::uint64_t seed, bool nearest_positive
             aim(random, o, target);
             ray.set(lane, o, target);
         }
-        const Crossing<F> crossing = cross_sphere(ray.origin(), ray.direction(), F(radius), Mask<F>(true));
+        const Crossing<F> crossing =
+            cross_sphere(ray.origin(), Vec3<F>{F(0), F(0), F(0)}, ray.direction(), F(radius), Mask<F>(true));
         alignas(64) S t0[W], t1[W];
         lanecast::store(t0, crossing.t0);
         lanecast::store(t1, crossing.t1);
@@ -165,6 +167,7 @@ template <class Aim>
 CylinderScore score_cylinder(double radius, double height, int rays, std::uint64_t seed, Aim&& aim) {
     Lottery random(seed);
     CylinderScore score;
+    const AffineRecord record = own_space();
     for (int n = 0; n < rays; n += W) {
         RayLanes ray;
         for (int lane = 0; lane < W; ++lane) {
@@ -174,7 +177,8 @@ CylinderScore score_cylinder(double radius, double height, int rays, std::uint64
             target[0] /= radius, target[2] /= radius, target[1] /= height;
             ray.set(lane, o, target);
         }
-        const CappedCrossing<F> crossing = cross_cylinder(ray.origin(), ray.direction(), Mask<F>(true));
+        const Vec3<F> org = ray.origin(), dir = ray.direction();
+        const CappedCrossing<F> crossing = cross_cylinder(ObjectRay<F>(record, org, dir), Mask<F>(true));
         alignas(64) S t0[W];
         lanecast::store(t0, crossing.ends.t0);
         for (int lane = 0; lane < W; ++lane) {
@@ -301,8 +305,10 @@ TEST_CASE("ellipsoid: object space agrees with the world's quadratic form") {
             }
             ray.set(lane, o, target);
         }
-        const Crossing<F> crossing = cross_sphere(point_to_object(record, ray.origin()),
-                                                  direction_to_object(record, ray.direction()), F(1), Mask<F>(true));
+        record.stretch = stretch_of(record);
+        record.radius = 4;
+        const Vec3<F> org = ray.origin(), dir = ray.direction();
+        const Crossing<F> crossing = cross_ellipsoid(ObjectRay<F>(record, org, dir), Mask<F>(true));
         alignas(64) S t0[W];
         lanecast::store(t0, crossing.t0);
         for (int lane = 0; lane < W; ++lane) {

@@ -43,7 +43,6 @@ void test_far_sphere_beside(const Block& block, Tally& tally);
 void test_far_sphere_rounding(const Block& block, Tally& tally);
 void test_huge_sphere(const Block& block, Tally& tally);
 void test_cylinder(const Block& block, Tally& tally);
-void test_cylinder_rounding(const Block& block, Tally& tally);
 void test_cylinder_axis(const Block& block, Tally& tally);
 // triangles.cpp
 void test_triangle_t(const Block& block, Tally& tally);

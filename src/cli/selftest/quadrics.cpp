@@ -137,25 +137,19 @@ glm::dvec3 on_cylinder(const AffineShadingRecord& forward, const AffineRecord& r
     return q;
 }
 
-/// Hits and t of rays at one cylinder. Left out: rays for which ends of body and caps are within 4 ulp of t, at the rim, and
-/// those along the silhouette; with `rounding`: to within four roundings of the ray's origin as the body sees it.
-void score_cylinder(const Block& block, const SceneArrays& scene, Rays& rays, bool rounding, Random& random, Tally& tally) {
+/// Hits and t of rays at one cylinder. Left out: rays within 4 ulp of the radius of the silhouette, and those at the rim: ends of
+/// body and caps that are within 8 ulp of t, for each may be off by 4, or nearer than two ulp of the radius would move the
+/// body's.
+void score_cylinder(const Block& block, const SceneArrays& scene, Rays& rays, Random& random, Tally& tally) {
     const AffineRecord& record = scene.affines.at(0);
     const Hits hits = trace(block, scene, rays, random);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const RealVec o = to_object(record, real(rays.o(i))), d = to_object_direction(record, real(rays.d(i)));
         const RealCylinder exact = cross_body(o, d);
         const Real largest = std::max(std::fabs(exact.t0), std::fabs(exact.t1));
-        if (exact.band <= 4 * 0x1p-23L * largest || std::fabs(exact.gap) < 0x1p-21L) continue;
-        if (rounding) {
-            const Real across = std::sqrt(o.x * o.x + o.z * o.z), slack = 4 * 0x1p-24L * across;
-            const Real slope = std::sqrt(d.x * d.x + d.z * d.z);
-            if (std::fabs(exact.gap) < slack) continue;
-            // an end of the body moves by so much t; ends of the caps likewise
-            const Real end = slope > 0 ? slack / (slope * std::sqrt(std::max(exact.gap, slack))) : 0;
-            const Real cap = d.y != 0 ? 4 * 0x1p-24L * (std::fabs(o.y) + 0.5L) / std::fabs(d.y) : 0;
-            if (exact.band <= end + cap) continue;
-        }
+        if (exact.band <= 8 * 0x1p-23L * largest || std::fabs(exact.gap) < 0x1p-21L) continue;
+        const Real slope = std::sqrt(d.x * d.x + d.z * d.z);
+        if (exact.gap > 0 && exact.band * slope * std::sqrt(2 * exact.gap) <= 0x1p-22L) continue;
         ++tally.rays;
         const bool ahead = exact.hit && exact.t1 > 0, met = hits.slot[i] >= 0;
         if (met != ahead) {
@@ -169,7 +163,9 @@ void score_cylinder(const Block& block, const SceneArrays& scene, Rays& rays, bo
     }
 }
 
-void aim_at_cylinder(const Block& block, bool rounding, Tally& tally) {
+} // namespace
+
+void test_cylinder(const Block& block, Tally& tally) {
     Random random(block.seed);
     const double ratio = random.magnitude(1e-3, 1e3);
     const SceneArrays scene = one_object(Cylinder{ratio, 1, true}, block.setting.placing, random);
@@ -179,13 +175,8 @@ void aim_at_cylinder(const Block& block, bool rounding, Tally& tally) {
         if (i % 256 == 0) from = random.direction() * random.magnitude(3, 10);
         rays.add(from, on_cylinder(scene.affine_shading.at(0), scene.affines.at(0), random) - from);
     }
-    score_cylinder(block, scene, rays, rounding, random, tally);
+    score_cylinder(block, scene, rays, random, tally);
 }
-
-} // namespace
-
-void test_cylinder(const Block& block, Tally& tally) { aim_at_cylinder(block, false, tally); }
-void test_cylinder_rounding(const Block& block, Tally& tally) { aim_at_cylinder(block, true, tally); }
 
 void test_cylinder_axis(const Block& block, Tally& tally) {
     Random random(block.seed);
@@ -205,7 +196,7 @@ void test_cylinder_axis(const Block& block, Tally& tally) {
         const glm::dvec3 lean = column(0) * random.uniform(-tilt, tilt) + column(2) * random.uniform(-tilt, tilt);
         rays.add(centre + beside + column(1) * y, (random.chance(0.5) ? -2.0 : 2.0) * column(1) + lean);
     }
-    score_cylinder(block, scene, rays, false, random, tally);
+    score_cylinder(block, scene, rays, random, tally);
 }
 
 } // namespace lanecast::selftest

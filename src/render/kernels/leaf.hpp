@@ -207,9 +207,8 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const std::uint32_t i = vector * width<F>;
-                const CappedCrossing<F> crossing =
-                    cross_cone(point_to_object(affine, packet.origin(i)), direction_to_object(affine, packet.direction(i)),
-                               F(S(affine.taper)), Mask<F>(true));
+                const Vec3<F> org = packet.origin(i), dir = packet.direction(i);
+                const CappedCrossing<F> crossing = cross_cone(ObjectRay<F>(affine, org, dir), Mask<F>(true));
                 if (kind == PrimitiveKind::cone ? hit_convex<query>(scene, packet, i, crossing.ends, slot)
                                                 : hit_open<query>(scene, packet, i, crossing, slot))
                     changed |= 1u << vector;
@@ -218,10 +217,10 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
             for_each_bit(vectors, [&](std::uint32_t vector) {
                 const std::uint32_t i = vector * width<F>;
-                const Vec3<F> o = point_to_object(affine, packet.origin(i));
-                const Vec3<F> d = direction_to_object(affine, packet.direction(i));
-                const Crossing<F> ends = kind == PrimitiveKind::ellipsoid ? cross_sphere(o, d, F(1), Mask<F>(true))
-                                                                          : cross_cylinder(o, d, Mask<F>(true)).ends;
+                const Vec3<F> org = packet.origin(i), dir = packet.direction(i);
+                const ObjectRay<F> ray(affine, org, dir);
+                const Crossing<F> ends = kind == PrimitiveKind::ellipsoid ? cross_ellipsoid(ray, Mask<F>(true))
+                                                                          : cross_cylinder(ray, Mask<F>(true)).ends;
                 if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
             });
         }

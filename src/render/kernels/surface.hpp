@@ -27,6 +27,7 @@ inline constexpr Scalar<F> two_u = sizeof(Scalar<F>) == 4 ? Scalar<F>(1.2e-7) : 
 template <FloatBatch F>
 struct Point {
     Vec3<F> position, normal, error; ///< the normal points outside
+    Mask<F> inside;                  ///< the ray came from there
 };
 
 template <FloatBatch F>
@@ -34,6 +35,7 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
     into.position = select(lanes, from.position, into.position);
     into.normal = select(lanes, from.normal, into.normal);
     into.error = select(lanes, from.error, into.error);
+    into.inside = (into.inside & !lanes) | (from.inside & lanes);
 }
 
 /// The triangles of a packet's hits, and where the rays meet their planes.
@@ -83,7 +85,7 @@ LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& o
                                         Mask<F> lanes) {
     const auto [a, b, c, n, edges, inv_det] = triangle_hit(scene, org, dir, slot, lanes);
     const Vec3<F> along_b = (b - a) * (edges.v * inv_det), along_c = (c - a) * (edges.w * inv_det);
-    return {a + (along_b + along_c), n, (abs(a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>)};
+    return {a + (along_b + along_c), n, (abs(a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>), dot(dir, n) > F(0)};
 }
 
 template <FloatBatch F>
@@ -99,12 +101,14 @@ LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org
     });
     const Vec3<F> n = normalize((org - centre) + dir * t);
     const F slack = radius * F(gamma_7<F>);
-    return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>)};
+    return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>), dot(dir, n) > F(0)};
 }
 
-/// An ellipsoid's or cylinder's point from its point and normal in object space.
+/// A body's point from its point and normal in object space. That the ray enters there is known from its crossing: where it
+/// grazes, the normal at the rounded t may say otherwise.
 template <FloatBatch F>
-LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t record, const Vec3<F>& p, const Vec3<F>& n) {
+LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t record, const Vec3<F>& p, const Vec3<F>& n,
+                                      Mask<F> enters) {
     const AffineRecord& affine = scene.affines[record];
     const AffineShadingRecord& forward = scene.affine_shading[record];
     const Vec3<F> translation = splat<F>(affine.translation);
@@ -114,34 +118,33 @@ LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t reco
             position = position + multiply<F>(forward.world_from_object, p - point_to_object(affine, position));
     }
     return {position, normalize(multiply_transposed<F>(affine.object_from_world, n)),
-            multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) +
-                abs(translation) * F(two_u<F>)};
+            multiply_absolute<F>(forward.world_from_object, abs(p)) * F(gamma_7<F> + gamma_7<F>) + abs(translation) * F(two_u<F>),
+            !enters};
 }
 
 template <FloatBatch F>
 LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
-    const AffineRecord& affine = scene.affines[record];
-    const Vec3<F> p = normalize(point_to_object(affine, org) + direction_to_object(affine, dir) * t);
-    return affine_point(scene, record, p, p);
+    const ObjectRay<F> ray(scene.affines[record], org, dir);
+    const Vec3<F> p = normalize(ray.at(t));
+    return affine_point(scene, record, p, p, t == cross_ellipsoid(ray, Mask<F>(true)).t0); // the same numbers as when it was hit
 }
 
 template <FloatBatch F>
 LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     using S = Scalar<F>;
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
-    const AffineRecord& affine = scene.affines[record];
-    const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
-    const CappedCrossing<F> crossing = cross_cylinder(o, d, Mask<F>(true)); // the same numbers as when it was hit
+    const ObjectRay<F> ray(scene.affines[record], org, dir);
+    const CappedCrossing<F> crossing = cross_cylinder(ray, Mask<F>(true)); // the same numbers as when it was hit
     const Mask<F> enters = t == crossing.ends.t0;
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
-    const Vec3<F> q = o + d * t;
+    const Vec3<F> q = ray.at(t);
     const F zero(0), half(S(0.5)), inv_radius = F(1) / sqrt(q.x * q.x + q.z * q.z);
-    const F side = copysign(half, select(enters, -d.y, d.y)); // q.y is noise on a disc far thinner than it is far
+    const F side = copysign(half, select(enters, -ray.dir.y, ray.dir.y)); // q.y is noise on a disc far thinner than it is far
     const Vec3<F> on_side{q.x * inv_radius, max(min(q.y, half), -half), q.z * inv_radius};
     const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, on_side);
     const Vec3<F> n = select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{on_side.x, zero, on_side.z});
-    return affine_point(scene, record, p, n);
+    return affine_point(scene, record, p, n, enters);
 }
 
 /// As a cylinder's, with or without caps.
@@ -149,13 +152,13 @@ template <FloatBatch F>
 LANECAST_INLINE Point<F> cone_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
     using S = Scalar<F>;
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
-    const AffineRecord& affine = scene.affines[record];
-    const F taper(S(affine.taper)), zero(0), half(S(0.5));
-    const Vec3<F> o = point_to_object(affine, org), d = direction_to_object(affine, dir);
-    const CappedCrossing<F> crossing = cross_cone(o, d, taper, Mask<F>(true));
+    const ObjectRay<F> ray(scene.affines[record], org, dir);
+    const Vec3<F>&o = ray.org, &d = ray.dir;
+    const F taper(S(ray.affine.taper)), zero(0), half(S(0.5));
+    const CappedCrossing<F> crossing = cross_cone(ray, Mask<F>(true));
     const Mask<F> enters = t == crossing.ends.t0;
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
-    const Vec3<F> q = o + d * t;
+    const Vec3<F> q = ray.at(t);
     // Onto the side along the likely error of q, which is that of the larger coordinates: on a flat cone far away that is y's.
     const F distance = sqrt(q.x * q.x + q.z * q.z);
     const F reach = abs(o.x) + abs(o.z) + F(1), rise = (abs(o.y) + half) * taper;
@@ -166,7 +169,7 @@ LANECAST_INLINE Point<F> cone_point(const SceneView& scene, const Vec3<F>& org, 
     const Vec3<F> away{q.x * inv_distance, zero, q.z * inv_distance};
     const F side = copysign(half, select(enters, -d.y, d.y)); // as on a cylinder
     const Vec3<F> p = select(cap, Vec3<F>{q.x, side, q.z}, Vec3<F>{away.x * radius, y, away.z * radius});
-    return affine_point(scene, record, p, select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{away.x, -taper, away.z}));
+    return affine_point(scene, record, p, select(cap, Vec3<F>{zero, side, zero}, Vec3<F>{away.x, -taper, away.z}), enters);
 }
 
 template <FloatBatch F>
@@ -176,7 +179,7 @@ LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org,
     const Vec3<F> n = splat<F>(plane.normal);
     const Vec3<F> along = org + dir * t;
     const Vec3<F> p = along - n * (dot(n, along) - F(S(plane.distance)));
-    return {p, n, abs(along) * F(gamma_7<F>)};
+    return {p, n, abs(along) * F(gamma_7<F>), dot(dir, n) > F(0)};
 }
 
 } // namespace detail
@@ -188,7 +191,7 @@ Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>&
         return found & slot_between<F>(slot, first_slot(scene, kind), end_slot(scene, kind));
     };
     const Vec3<F> zero{F(0), F(0), F(0)};
-    detail::Point<F> point{zero, {F(1), F(0), F(0)}, zero};
+    detail::Point<F> point{zero, {F(1), F(0), F(0)}, zero, Mask<F>(false)};
     if (const Mask<F> lanes = kind_lanes(PrimitiveKind::triangle); any(lanes))
         merge(point, lanes, detail::triangle_point(scene, org, dir, slot, lanes));
     if (const Mask<F> lanes = kind_lanes(PrimitiveKind::sphere); any(lanes))
@@ -207,7 +210,7 @@ Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>&
     if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
         for_each_unique<F>(slot, lanes,
                            [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::plane_point(scene, org, dir, t, s)); });
-    const Mask<F> inside = found & (dot(dir, point.normal) > F(0));
+    const Mask<F> inside = found & point.inside;
     // the offset is added to a rounded position: 2 u |p| keeps it outside whatever that rounds to
     const F offset = dot(abs(point.normal), point.error + abs(point.position) * F(detail::two_u<F>));
     return {point.position, select(inside, -point.normal, point.normal), offset, inside};

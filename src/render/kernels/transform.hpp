@@ -34,9 +34,69 @@ template <FloatBatch F>
 LANECAST_INLINE Vec3<F> point_to_object(const AffineRecord& affine, const Vec3<F>& p_world) {
     return multiply<F>(affine.object_from_world, p_world - splat<F>(affine.translation));
 }
+
+namespace detail {
+
+/// A row of object_from_world times v, in double.
 template <FloatBatch F>
-LANECAST_INLINE Vec3<F> direction_to_object(const AffineRecord& affine, const Vec3<F>& d_world) {
-    return multiply<F>(affine.object_from_world, d_world);
+LANECAST_INLINE typename InDouble<F>::Type row_times(const AffineRecord& affine, int row,
+                                                     const typename InDouble<F>::Type (&v)[3]) {
+    const auto m = [&](int k) { return InDouble<F>::splat(static_cast<double>(affine.object_from_world[3 * row + k])); };
+    return m(0) * v[0] + m(1) * v[1] + m(2) * v[2];
 }
+/// All of them, each rounded once.
+template <FloatBatch F>
+LANECAST_INLINE Vec3<F> multiply_exactly(const AffineRecord& affine, const typename InDouble<F>::Type (&v)[3]) {
+    const auto row = [&](int i) { return InDouble<F>::rounded(row_times<F>(affine, i, v)); };
+    return {row(0), row(1), row(2)};
+}
+
+} // namespace detail
+
+/// A ray in the space of an object. `org` and `dir` are off by some u times their lengths, in units of the thinnest part of the
+/// object. Where that matters, `at` computes a point anew, in double, and `refine` the direction, so that a ray nearly along a
+/// thin body stays on its way.
+template <FloatBatch F>
+struct ObjectRay {
+    const AffineRecord& affine;
+    const Vec3<F>&org_world, &dir_world;
+    Vec3<F> org, dir;
+
+    LANECAST_INLINE ObjectRay(const AffineRecord& affine_, const Vec3<F>& org_, const Vec3<F>& dir_)
+        : affine(affine_), org_world(org_), dir_world(dir_), org(point_to_object(affine_, org_)),
+          dir(multiply<F>(affine_.object_from_world, dir_)) {}
+
+    LANECAST_INLINE void refine() {
+        dir = detail::multiply_exactly<F>(affine, {D::from(dir_world.x), D::from(dir_world.y), D::from(dir_world.z)});
+    }
+    /// The point at t, rounded once.
+    [[nodiscard]] LANECAST_INLINE Vec3<F> at(F t) const {
+        typename D::Type p[3];
+        from_centre(t, p);
+        return detail::multiply_exactly<F>(affine, p);
+    }
+    /// How far above y the point at t is, rounded once.
+    [[nodiscard]] LANECAST_INLINE F above(double y, F t) const {
+        typename D::Type p[3];
+        from_centre(t, p);
+        return D::rounded(detail::row_times<F>(affine, 1, p) - D::splat(y));
+    }
+    /// Where the true ray meets the body, this ray is at most so far from it. There |t dir_world| is at most the distance and
+    /// `radius`; rounding may reach 18 u of all these, so that 170 u leave room for that of whoever asks.
+    [[nodiscard]] LANECAST_INLINE F slack() const {
+        const Vec3<F> f = abs(org_world - splat<F>(affine.translation));
+        return F(Scalar<F>(affine.stretch) * Scalar<F>(1e-5)) * (f.x + f.y + f.z + F(Scalar<F>(affine.radius)));
+    }
+
+private:
+    using D = InDouble<F>;
+
+    LANECAST_INLINE void from_centre(F t, typename D::Type (&p)[3]) const {
+        const typename D::Type s = D::from(t);
+        const F o[3] = {org_world.x, org_world.y, org_world.z}, d[3] = {dir_world.x, dir_world.y, dir_world.z};
+        for (int k = 0; k < 3; ++k)
+            p[k] = D::from(o[k]) - D::splat(static_cast<double>(affine.translation[k])) + D::from(d[k]) * s;
+    }
+};
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -97,15 +97,15 @@ void hit_quadric(const SceneView& scene, SingleRay<F>& ray, PrimitiveKind kind, 
         const SphereRecord& sphere = sphere_at(scene, slot);
         ends = cross_sphere<S>(org, splat<S>(sphere.centre), dir, S(sphere.radius), true);
     } else {
-        const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
-        const Vec3<S> o = point_to_object<S>(affine, org), d = direction_to_object<S>(affine, dir);
+        const ObjectRay<S> in_object(scene.affines[affine_index(scene, slot)], org, dir);
         if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {
-            const CappedCrossing<S> crossing = cross_cone<S>(o, d, S(affine.taper), true);
+            const CappedCrossing<S> crossing = cross_cone<S>(in_object, true);
             ends = crossing.ends;
             open0 = kind == PrimitiveKind::open_cone && crossing.cap0;
             open1 = kind == PrimitiveKind::open_cone && crossing.cap1;
         } else {
-            ends = kind == PrimitiveKind::ellipsoid ? cross_sphere<S>(o, d, S(1), true) : cross_cylinder<S>(o, d, true).ends;
+            ends =
+                kind == PrimitiveKind::ellipsoid ? cross_ellipsoid<S>(in_object, true) : cross_cylinder<S>(in_object, true).ends;
         }
     }
     const auto this_slot = static_cast<std::int32_t>(slot);
