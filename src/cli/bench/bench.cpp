@@ -9,11 +9,10 @@
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
+#include "render/output_file.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -94,12 +93,6 @@ void measure_set(const Contenders& contenders, const RaySet& set, int threads, c
     }
 }
 
-void write_file(const std::string& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    if (!out.flush()) throw Error(ExitCode::output, "cannot write " + file);
-}
-
 /// A line per size, tree, instruction set and number of threads.
 void measure_builds(const BenchRequest& request, const std::vector<std::string>& isas) {
     for (const std::string& isa : isas) static_cast<void>(find_kernels(isa, Precision::balanced)); // refuses what is not there
@@ -173,12 +166,7 @@ int run(const BenchRequest& request) {
             measure_set(contenders, set, count, check ? &truth : nullptr, request, report);
         }
     if (!request.json.empty()) write_file(request.json, json_report(report));
-    for (const std::string& file : request.plots) {
-        if (std::filesystem::path(file).extension() == ".png")
-            write_png(std::filesystem::path(file), picture_of(plot(report)));
-        else
-            write_file(file, svg_of(plot(report)));
-    }
+    for (const std::string& file : request.plots) write_drawing(file, plot(report));
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);
 }
