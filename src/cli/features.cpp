@@ -17,7 +17,7 @@ std::vector<Feature> features_of(const SceneArrays& arrays, const RenderSettings
         {"specular", has(feature_specular)},
         {"shadows", shadows},
         {"soft shadows", shadows && has(feature_soft_lights)},
-        {"transmissive shadows", shadows && settings.transmissive_shadows},
+        {"transmissive shadows", shadows && has(feature_transmissive) && settings.transmissive_shadows},
         {"reflection", has(feature_reflective)},
         {"schlick", has(feature_reflective) && settings.schlick},
         {"transmission", has(feature_transmissive)},

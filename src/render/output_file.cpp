@@ -142,4 +142,10 @@ void OutputFile::commit() {
     temporary_.clear();
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    OutputFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
 } // namespace lanecast

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 namespace lanecast {
 
@@ -52,5 +53,8 @@ private:
     std::size_t buffered_ = 0;
     std::uint64_t buffer_position_ = 0; ///< where the buffer's first byte goes in the file
 };
+
+/// A file of that text, whole or not at all.
+void write_file(const std::filesystem::path& path, std::string_view text);
 
 } // namespace lanecast

@@ -68,7 +68,7 @@ RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderS
     job.depth = settings.depth;
     job.cutoff = static_cast<float>(settings.cutoff);
     job.shadows = settings.shadows ? 1 : 0;
-    job.transmissive_shadows = settings.transmissive_shadows ? 1 : 0;
+    job.transmissive_shadows = settings.transmissive_shadows && (scene.features & feature_transmissive) != 0 ? 1 : 0;
     job.schlick = settings.schlick ? 1 : 0;
     job.brute_force = settings.bvh == BvhMode::off ? 1 : 0;
     job.soft_samples = (scene.features & feature_soft_lights) != 0 ? settings.soft_shadows : 0;

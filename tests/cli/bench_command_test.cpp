@@ -67,6 +67,34 @@ TEST_CASE("frames and calls") {
     CHECK(calls.out.find("nanoseconds per ray") != std::string::npos);
 }
 
+TEST_CASE("what a scene leaves out: a row per feature, and the same pixels with each of them") {
+    const TemporaryDirectory directory;
+    const auto features = [&](const std::string& scene, const std::string& isa) {
+        const Outcome outcome = run({"bench", "--features", LANECAST_SOURCE_DIR "/scenes/" + scene + ".json", "--size", "96x64",
+                                     "--isa", isa, "--repetitions", "2", "--commit", "abc", "--json", "out.json"},
+                                    {.directory = directory.path});
+        CHECK(outcome.code == 0); // not if a pixel differed
+        CHECK(outcome.err.empty());
+        return outcome.out;
+    };
+    for (const char* const isa : {"scalar", "auto"}) {
+        const std::string sphere = features("sphere", isa);
+        for (const char* feature : {"soft shadows", "transmissive shadows", "reflection", "transmission", "all of these"}) {
+            CAPTURE(feature);
+            CHECK(lines_with(sphere, std::string("\n") + feature + " ") == 1);
+        }
+        const std::string json = contents(directory.path / "out.json");
+        CHECK(lines_with(json, "\"gain\"") == lines_with(sphere, " to "));
+        CHECK(lines_with(json, "\"differing_pixels\": 0") == lines_with(json, "\"gain\""));
+        for (const char* key : {"\"cpu\"", "\"commit\": \"abc\"", "\"width\": 96"}) CHECK(json.find(key) != std::string::npos);
+    }
+    const std::string glass = features("refraction", "auto");
+    for (const char* feature : {"transmission", "transmissive shadows"})
+        CHECK(lines_with(glass, std::string("\n") + feature + " ") == 0);
+    CHECK(lines_with(features("reflection", "auto"), "\ncut-off ") == 1);
+    CHECK(lines_with(features("soft_shadows", "auto"), "\nsoft shadows ") == 0);
+}
+
 TEST_CASE("building trees: a line per size, tree and number of threads") {
     const Outcome outcome = run({"bench", "terrain", "--builds", "--triangles", "200,5000", "--bvh", "default,quality",
                                  "--threads", "1,2", "--isa", "scalar", "--repetitions", "2"},
@@ -81,6 +109,9 @@ TEST_CASE("what cannot be measured is refused") {
     CHECK(run({"bench"}).code == 2);
     CHECK(run({"bench", "teapot"}).code == 2);
     CHECK(run({"bench", "/nowhere/mesh.ply"}).code == 4);
+    CHECK(run({"bench", "--features", "/nowhere/scene.json"}).code == 3);
+    CHECK(run({"bench", "--features", "a.json", "--frames", "a.json"}).code == 2);
+    CHECK(run({"bench", "--features", "a.json", "--size", "0x1"}).code == 2);
     CHECK(run({"bench", gem, "--isa", "neon"}).code == 2);
     CHECK(run({"bench", gem, "--builds", "--isa", "neon"}).code == 2);
     CHECK(run({"bench", gem, "--builds", "--triangles", "1"}).code == 2);

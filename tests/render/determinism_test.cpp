@@ -190,6 +190,26 @@ TEST_CASE("same bytes where mirrors and glass are split: no part of a triangle h
     }
 }
 
+TEST_CASE("same bytes with and without transmissive shadows where all is opaque, also of what touches a surface") {
+    // The middle column looks along a wall that stands on the floor: shadow rays start on it, to a light on its right.
+    SceneDescription scene;
+    Material white;
+    white.diffuse = glm::dvec3(1);
+    scene.objects.push_back({Plane{{0, 0, 0}, {0, 1, 0}}, {}, white, ""});
+    scene.objects.push_back({Plane{{0, 0, 0}, {1, 0, 0}}, {}, white, ""});
+    Material glass;
+    glass.transmissive = glm::dvec3(0.5);
+    for (const double side : {-1.0, 1.0}) scene.objects.push_back({Sphere{1, {side, -4, 0}}, {}, glass, ""}); // under the floor
+    scene.lights.emplace_back(PointLight{glm::dvec3(1), {1, 5, 0}, {1, 0, 0}, 0});
+    scene.camera.position = {0, 2, 5};
+    scene.camera.look_at = {0, 0, 0};
+    Shot shot{{65, 48, {0, 0, 0, 0}, 1, 32}, {}};
+    const Film plain = shoot(scalar_kernels(), scene, shot).film;
+    CHECK(plain.rgb[0][40 * 65 + 32] > 0.1f);
+    shot.settings.transmissive_shadows = true;
+    for (const KernelTable* kernels : balanced_kernels()) CHECK(film_difference(plain, shoot(*kernels, scene, shot).film) == "");
+}
+
 TEST_CASE("same bytes in any unit of length: every length times 2^k") {
     for_each_shot([](SceneDescription scene, Shot shot) {
         shot.settings.soft_shadows = 2;

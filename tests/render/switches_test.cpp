@@ -289,6 +289,16 @@ TEST_CASE("transmissive shadows: light is multiplied by every surface on its way
     CHECK(centre(scene).x == doctest::Approx(0.5).epsilon(1e-4));
 }
 
+TEST_CASE("transmissive shadows: kernels are asked for them only where something transmits") {
+    const SceneDescription scene = everything();
+    RenderSettings s;
+    s.transmissive_shadows = true;
+    const auto job = [&] { return make_job(flatten(scene, s, 1), scene.camera, s, FrameOptions{}); };
+    CHECK(job().transmissive_shadows == 1);
+    s.transmission = false;
+    CHECK(job().transmissive_shadows == 0);
+}
+
 TEST_CASE("soft shadows: only lights with an extent, and a half-covered disc gives its covered share") {
     // without extents nothing changes
     SceneDescription hard = everything();

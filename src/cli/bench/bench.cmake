@@ -6,6 +6,7 @@ target_sources(lanecast PRIVATE
   cli/bench/builds.cpp
   cli/bench/calls.cpp
   cli/bench/drawing.cpp
+  cli/bench/features.cpp
   cli/bench/frames.cpp
   cli/bench/measure.cpp
   cli/bench/ours.cpp

@@ -2,6 +2,7 @@
 
 #include "cli/bench/builds.hpp"
 #include "cli/bench/calls.hpp"
+#include "cli/bench/features.hpp"
 #include "cli/bench/frames.hpp"
 #include "cli/bench/report.hpp"
 #include "cli/commands.hpp"
@@ -9,11 +10,11 @@
 #include "cli/parse_value.hpp"
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
+#include "render/output_file.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <array>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -25,8 +26,9 @@ using namespace bench;
 
 struct BenchRequest {
     std::string mesh;
-    std::string frames;         ///< a scene; instead of a mesh
-    std::vector<double> camera; ///< position, look_at, and perhaps the field
+    std::string frames, features;        ///< a scene; instead of a mesh
+    std::array<int, 2> size{1920, 1080}; ///< of its frames
+    std::vector<double> camera;          ///< position, look_at, and perhaps the field
     std::vector<double> light;
     bool z_up = false;
     bool no_ground = false;
@@ -94,12 +96,6 @@ void measure_set(const Contenders& contenders, const RaySet& set, int threads, c
     }
 }
 
-void write_file(const std::string& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    if (!out.flush()) throw Error(ExitCode::output, "cannot write " + file);
-}
-
 /// A line per size, tree, instruction set and number of threads.
 void measure_builds(const BenchRequest& request, const std::vector<std::string>& isas) {
     for (const std::string& isa : isas) static_cast<void>(find_kernels(isa, Precision::balanced)); // refuses what is not there
@@ -120,17 +116,34 @@ void measure_builds(const BenchRequest& request, const std::vector<std::string>&
     }
 }
 
+/// What frames of a scene are asked for, whatever is then measured.
+template <class FrameRequest>
+FrameRequest scene_frames(const BenchRequest& request, const std::string& scene) {
+    FrameRequest frames;
+    frames.scene = scene;
+    if (!request.isas.empty()) frames.isa = request.isas.front();
+    if (!request.precisions.empty()) frames.precision = request.precisions.front();
+    frames.width = request.size[0], frames.height = request.size[1];
+    frames.pairs = request.repetitions;
+    return frames;
+}
+
+int run_features(const BenchRequest& request) {
+    FeaturesReport report = measure_features(scene_frames<FeaturesRequest>(request, request.features));
+    report.commit = request.commit;
+    if (!request.json.empty()) write_file(request.json, json_report(report));
+    print_result(text_report(report));
+    const bool same = std::ranges::all_of(report.rows, [](const FeatureRow& row) { return row.differing_pixels == 0; });
+    return static_cast<int>(same ? ExitCode::done : ExitCode::failure);
+}
+
 int run(const BenchRequest& request) {
+    if (!request.features.empty()) return run_features(request);
     if (!request.frames.empty()) {
-        FramesRequest frames;
-        frames.scene = request.frames;
-        if (!request.isas.empty()) frames.isa = request.isas.front();
-        if (!request.precisions.empty()) frames.precision = request.precisions.front();
-        frames.pairs = request.repetitions;
-        print_result(measure_frames(frames));
+        print_result(measure_frames(scene_frames<FramesRequest>(request, request.frames)));
         return static_cast<int>(ExitCode::done);
     }
-    if (request.mesh.empty()) throw Error(ExitCode::usage, "bench: needs a mesh, or --frames and a scene");
+    if (request.mesh.empty()) throw Error(ExitCode::usage, "bench: needs a mesh, or --frames or --features and a scene");
     const std::vector<std::string> isas = request.isas.empty() ? all_isas() : request.isas;
     if (request.builds) {
         measure_builds(request, isas);
@@ -173,12 +186,7 @@ int run(const BenchRequest& request) {
             measure_set(contenders, set, count, check ? &truth : nullptr, request, report);
         }
     if (!request.json.empty()) write_file(request.json, json_report(report));
-    for (const std::string& file : request.plots) {
-        if (std::filesystem::path(file).extension() == ".png")
-            write_png(std::filesystem::path(file), picture_of(plot(report)));
-        else
-            write_file(file, svg_of(plot(report)));
-    }
+    for (const std::string& file : request.plots) write_drawing(file, plot(report));
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);
 }
@@ -219,8 +227,18 @@ void add_bench(CLI::App& app, Command& chosen) {
     command->add_option("--repetitions", request->repetitions, "Of which the median counts")
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
-    command->add_option("--frames", request->frames, "Whole frames of a scene instead, 1920x1080, one thread and two in turn")
-        ->type_name("FILE");
+    CLI::Option* const frames =
+        command->add_option("--frames", request->frames, "Whole frames of a scene instead, one thread and two in turn")
+            ->type_name("FILE");
+    command
+        ->add_option("--features", request->features, "What each feature costs that a scene leaves out, in whole frames, instead")
+        ->type_name("FILE")
+        ->excludes(frames);
+    command
+        ->add_option_function<std::string>(
+            "--size", [request](const std::string& text) { request->size = parse_size("--size", text); },
+            "Of these frames; default 1920x1080")
+        ->type_name("WxH");
     command->add_option("--commit", request->commit, "For the record")->type_name("TEXT");
     command->add_option("--check", request->check, "Rays of each kind whose hits are compared")->type_name("N");
     command->add_option("--json", request->json, "Write everything as JSON")->type_name("FILE");

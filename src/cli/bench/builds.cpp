@@ -1,22 +1,17 @@
 #include "cli/bench/builds.hpp"
 
+#include "cli/bench/quantile.hpp"
 #include "cli/print.hpp"
 #include "lanecast/describe.hpp"
 #include "scene/bvh_quality.hpp"
 #include "scene/flatten.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <thread>
 #include <vector>
 
 namespace lanecast::bench {
 namespace {
-
-double quantile(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
 
 /// "0.93 (0.91 to 0.96)": the median and the quartiles.
 std::string with_spread(const std::vector<double>& values) {

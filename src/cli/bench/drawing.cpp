@@ -1,6 +1,8 @@
 #include "cli/bench/drawing.hpp"
 
 #include "cli/print.hpp"
+#include "render/output_file.hpp"
+#include "scene/text_tools.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,6 +100,15 @@ Picture8 picture_of(const Drawing& drawing) {
         }
     }
     return picture;
+}
+
+bool is_png(const std::filesystem::path& file) { return lower_case(file.extension().string()) == ".png"; }
+
+void write_drawing(const std::filesystem::path& file, const Drawing& drawing) {
+    if (is_png(file))
+        write_png(file, picture_of(drawing));
+    else
+        write_file(file, svg_of(drawing));
 }
 
 } // namespace lanecast::bench

@@ -3,6 +3,7 @@
 
 #include "render/png_io.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,9 @@ struct Drawing {
 [[nodiscard]] std::string svg_of(const Drawing& drawing);
 /// Twice as wide and high. Letters are capitals.
 [[nodiscard]] Picture8 picture_of(const Drawing& drawing);
+
+/// As a PNG where `file` ends so, else as an SVG.
+void write_drawing(const std::filesystem::path& file, const Drawing& drawing);
+[[nodiscard]] bool is_png(const std::filesystem::path& file);
 
 } // namespace lanecast::bench

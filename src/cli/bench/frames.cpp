@@ -1,12 +1,12 @@
 #include "cli/bench/frames.hpp"
 
+#include "cli/bench/quantile.hpp"
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
 #include "render/renderer.hpp"
 #include "scene/flatten.hpp"
 #include "scene/load_scene.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <vector>
@@ -18,11 +18,6 @@ constexpr const char* kind_names[ray_kind_count] = {"primary", "offset", "shadow
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-double quantile(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
 
 template <class... Values>
 void line(std::string& text, const char* format, Values... values) {

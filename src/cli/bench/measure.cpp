@@ -1,6 +1,7 @@
 #include "cli/bench/measure.hpp"
 
-#include <algorithm>
+#include "cli/bench/quantile.hpp"
+
 #include <chrono>
 #include <thread>
 
@@ -32,13 +33,6 @@ void time_all(Contender& contender, const std::vector<std::size_t>& first, std::
     for (std::size_t i = 1; i + 1 < first.size(); ++i)
         threads.emplace_back([&, i] { time_chunks(contender, first[i], first[i + 1], ticks); });
     time_chunks(contender, first[0], first[1], ticks);
-}
-
-template <class T>
-T quantile(std::vector<T> values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
 }
 
 /// ticks[repetition][chunk]

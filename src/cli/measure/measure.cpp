@@ -10,7 +10,6 @@
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
 #include "render/output_file.hpp"
-#include "render/png_io.hpp"
 #include "scene/error.hpp"
 #include "scene/text_tools.hpp"
 
@@ -43,19 +42,10 @@ constexpr KeySpec repetitions_key{.name = "repetitions", .kind = ValueKind::whol
 constexpr KeySpec samples_key{.name = "reference samples", .kind = ValueKind::whole, .range = {.low = 2, .high = 64}};
 constexpr KeySpec rays_key{.name = "rays", .kind = ValueKind::whole, .range = {.low = 1, .high = 1 << 24}};
 
-bool is_png(const std::string& file) { return lower_case(std::filesystem::path(file).extension().string()) == ".png"; }
-
-void write_text(const std::string& path, const std::string& text) {
-    if (path.empty()) return;
-    OutputFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
-}
-
 /// Before the work, not after it.
 void probe_outputs(const MeasureRequest& request) {
     for (const std::string& plot : request.plots)
-        if (!is_png(plot) && lower_case(std::filesystem::path(plot).extension().string()) != ".svg")
+        if (!bench::is_png(plot) && lower_case(std::filesystem::path(plot).extension().string()) != ".svg")
             throw Error(ExitCode::usage, "--plot: " + printable_path(plot) + ": a plot is an .svg or a .png");
     std::vector<std::string> files{request.json, request.html};
     files.insert(files.end(), request.plots.begin(), request.plots.end());
@@ -85,14 +75,9 @@ int measure(const MeasureRequest& request) {
     report.compiler = compiler_name();
 
     const InterruptScope interrupt; // files are written whole
-    write_text(request.json, request.json.empty() ? "" : json_report(report));
-    write_text(request.html, request.html.empty() ? "" : html_report(report));
-    for (const std::string& file : request.plots) {
-        if (is_png(file))
-            write_png(std::filesystem::path(file), bench::picture_of(plot(report)));
-        else
-            write_text(file, svg_of(plot(report)));
-    }
+    if (!request.json.empty()) write_file(request.json, json_report(report));
+    if (!request.html.empty()) write_file(request.html, html_report(report));
+    for (const std::string& file : request.plots) bench::write_drawing(file, plot(report));
     interrupt.check();
     print_result(text_report(report));
     return static_cast<int>(ExitCode::done);

@@ -119,12 +119,7 @@ int run(const SelftestRequest& request) {
         if (interrupt.stop().load()) break;
         met = met && (all[i].c->target.listed || is_met(all[i].c->target, all[i].tally));
     }
-    if (!request.json.empty()) {
-        const std::string text = json_report(what, all);
-        OutputFile file(request.json);
-        file.write(text.data(), text.size());
-        file.commit();
-    }
+    if (!request.json.empty()) write_file(request.json, json_report(what, all));
     try {
         interrupt.check();
     } catch (const Interrupted& interrupted) {

