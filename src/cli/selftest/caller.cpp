@@ -5,6 +5,8 @@
 #include "cli/selftest/meshes.hpp"
 #include "cli/selftest/objects.hpp"
 #include "cli/selftest/scenes.hpp"
+#include "cli/selftest/wiggle.hpp"
+#include "render/dispatch.hpp"
 #include "scene/flatten.hpp"
 
 #include <cmath>
@@ -35,6 +37,38 @@ void compare_scales(const Block& block, int largest, Tally& tally) {
                        std::to_string(ulps(b.t[i], std::ldexp(double{a.t[i]}, k))) + " ulp");
     tally.rays += rays.size();
 }
+
+/// The object that each ray hits, -1: none.
+int object_of(const SceneArrays& scene, std::int32_t slot) {
+    return slot < 0 ? -1 : static_cast<int>(scene.object[static_cast<std::size_t>(slot)]);
+}
+
+} // namespace
+
+/// Objects of one kind and meshes: the same one as the double-precision kernels find, or one that they find for the ray moved by
+/// its roundings.
+void test_streams(const Block& block, Tally& tally) {
+    Random random(block.seed);
+    const Setting& s = block.setting;
+    SceneDescription description;
+    for (int i = 4 + random.below(24); i > 0; --i) {
+        const PrimitiveKind kind = i % 3 == 0 ? PrimitiveKind::triangle : s.primitive; // so that slots do not all start at 0
+        description.objects.push_back(random_object(kind, s.placing, random.point(3), random));
+    }
+    const SceneArrays scene = flatten(description, RenderSettings{}, 1);
+    Rays rays; // aimed at no edge, which are N2's
+    for (std::uint64_t i = 0; i < block.rays; ++i) rays.add(random.point(2), random.direction());
+    const Hits hits = ask(*s.kernels, view(scene), rays, s.path);
+    const Hits truth = ask(find_kernels("scalar", Precision::reference), view(scene), rays, Path::batch);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const int found = object_of(scene, hits.slot[i]), right = object_of(scene, truth.slot[i]);
+        if (found != right && !is_answer(view(scene), rays.o(i), rays.d(i), 16, found, hits.t[i]))
+            tally.fail("ray " + std::to_string(i) + ": object " + std::to_string(found) + " instead of " + std::to_string(right));
+    }
+    tally.rays += rays.size();
+}
+
+namespace {
 
 enum class Remedy { none, short_start, own_triangle_left_out };
 

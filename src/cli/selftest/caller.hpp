@@ -5,6 +5,7 @@
 
 namespace lanecast::selftest {
 
+void test_streams(const Block& block, Tally& tally);
 void test_scaled_streams(const Block& block, Tally& tally);
 void test_far_scaled_streams(const Block& block, Tally& tally);
 void test_started_rays(const Block& block, Tally& tally);

@@ -42,11 +42,14 @@ std::vector<Case> make_cases() {
     using enum PrimitiveKind;
     constexpr unsigned paths = only(Path::batch) | only(Path::mixed);
     constexpr unsigned centred = every_placing & ~only(Placing::translated) & ~only(Placing::stretched);
+    constexpr Scope round{peer_primitives, every_placing & ~only(Placing::stretched), paths, false};
     constexpr Scope any{only(triangle) | only(sphere), every_placing, paths, false};
     constexpr Scope convex{only(triangle) | only(sphere), centred, paths, false};
     constexpr Scope convex_mesh{only(triangle), centred, paths, false};
     // clang-format off
     const Case more[] = {
+        {"N3", "streams", "the object that the double-precision reference finds, or finds for the ray as rounded",
+         {}, test_streams, round, 1'000'000, 16384},
         {"N5", "streams, to 2^20", "all lengths times 2^k, k from -20 to 20: the same hits, t times 2^k",
          {}, test_scaled_streams, any, 2'000'000, 16384},
         {"N5", "streams, to 2^36", "k from -36 to 36",
