@@ -1,14 +1,17 @@
-# lanecast_isa_test(<name> [FAST] LABELS <label>... SOURCES <file>...)
+# lanecast_isa_test(<name> [FAST] [PRECISE] LABELS <label>... SOURCES <file>...)
 # One source, compiled for every ISA of the build with its kernels' flags and LANECAST_ISA=<namespace>, each into an executable of its own, so that
-# nothing is shared; with FAST also for the kernels of that precision. Tests are named <name>_<namespace>; those the CPU cannot run say so and pass.
+# nothing is shared; with FAST and PRECISE also for the kernels of those precisions. Tests are named <name>_<namespace>; those the CPU cannot run say so and pass.
 add_executable(run_on_isa run_on_isa.cpp)
 target_link_libraries(run_on_isa PRIVATE lanecast::lanecast lanecast_flags)
 
 function(lanecast_isa_test name)
-  cmake_parse_arguments(arg "FAST" "" "LABELS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "FAST;PRECISE" "" "LABELS;SOURCES" ${ARGN})
   set(isas ${lanecast_isas})
   if(arg_FAST)
     list(APPEND isas ${lanecast_fast_isas})
+  endif()
+  if(arg_PRECISE)
+    list(APPEND isas ${lanecast_precise_isas})
   endif()
   foreach(isa IN LISTS isas)
     set(target ${name}_${isa})

@@ -24,8 +24,8 @@ fma='^vfn?m(add|sub)(add|sub)?(132|213|231)[ps][sdh] '
 forbidden() {
     case "$1" in
     baseline | scalar | reference) echo "$vex|$lzcnt|$sse4|$sse3|$fma" ;;
-    sse42) echo "$vex|$lzcnt|$fma" ;;
-    avx2) echo "$avx512|$lzcnt|$fma" ;;
+    sse42 | sse42_precise) echo "$vex|$lzcnt|$fma" ;;
+    avx2 | avx2_precise) echo "$avx512|$lzcnt|$fma" ;;
     avx2_fast) echo "$avx512|$lzcnt" ;;
     avx512_fast) echo "$lzcnt" ;;
     *) echo "$lzcnt|$fma" ;;
@@ -54,7 +54,8 @@ while read -r isa object; do
 
     # The linker keeps one of the copies of a weak symbol, so those of an ISA must carry its name; so must all that is global.
     # Two precisions of one ISA may share what is not ours: the flags are the same.
-    defined "$object" | awk '$1 ~ /[VWu]/ {print $2}' | sort -u >>"$work/${isa%_fast}.weak"
+    flags=${isa%_fast}
+    defined "$object" | awk '$1 ~ /[VWu]/ {print $2}' | sort -u >>"$work/${flags%_precise}.weak"
     # Our namespace, or what xsimd instantiates for exactly one architecture, where a debug build does not inline it; no two
     # ISAs share one of those either, see below.
     while read -r type name; do

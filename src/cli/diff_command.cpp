@@ -3,7 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/diff.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "cli/print.hpp"
 
 #include <memory>
@@ -17,14 +17,6 @@ namespace {
 constexpr KeySpec limit_key{.name = "limit", .range = {.low = 0}};
 constexpr KeySpec share_key{.name = "share", .range = {.low = 0, .high = 1}};
 
-template <class Set>
-void add_number(CLI::App& command, const std::string& name, const char* help, const KeySpec& key, const Set& set) {
-    command
-        .add_option_function<std::string>(
-            name, [name, &key, set](const std::string& text) { set(parse_number(name, text, key)); }, help)
-        ->type_name("X");
-}
-
 } // namespace
 
 void add_diff(CLI::App& app, Command& chosen) {
@@ -34,14 +26,16 @@ void add_diff(CLI::App& app, Command& chosen) {
     command->add_option("a", o.a, "A picture")->required()->type_name("FILE");
     command->add_option("b", o.b, "Another")->required()->type_name("FILE");
     command->add_option("-o,--output", o.output, "Difference picture, .exr or .png")->type_name("FILE");
-    add_number(*command, "--scale", "Of the difference picture; default 1 for EXR, 16 for PNG", limit_key,
-               [&o](double v) { o.scale = static_cast<float>(v); });
-    add_number(*command, "--threshold", "A pixel is off when a channel differs by more; default 1/255", limit_key,
-               [&o](double v) { o.threshold = v; });
-    add_number(*command, "--max-rmse", "Accept this root of the mean square", limit_key, [&o](double v) { o.max_rmse = v; });
-    add_number(*command, "--max-error", "Accept this difference of a channel", limit_key, [&o](double v) { o.max_error = v; });
-    add_number(*command, "--max-off-share", "Accept this share of pixels that are off, 0 to 1", share_key,
-               [&o](double v) { o.max_off_share = v; });
+    add_number_option(*command, "--scale", "Of the difference picture; default 1 for EXR, 16 for PNG", limit_key,
+                      [&o](double v) { o.scale = static_cast<float>(v); });
+    add_number_option(*command, "--threshold", "A pixel is off when a channel differs by more; default 1/255", limit_key,
+                      [&o](double v) { o.threshold = v; });
+    add_number_option(*command, "--max-rmse", "Accept this root of the mean square", limit_key,
+                      [&o](double v) { o.max_rmse = v; });
+    add_number_option(*command, "--max-error", "Accept this difference of a channel", limit_key,
+                      [&o](double v) { o.max_error = v; });
+    add_number_option(*command, "--max-off-share", "Accept this share of pixels that are off, 0 to 1", share_key,
+                      [&o](double v) { o.max_off_share = v; });
     command->final_callback([&chosen, options] {
         chosen = [options] {
             std::ostringstream out;

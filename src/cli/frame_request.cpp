@@ -1,6 +1,6 @@
 #include "cli/frame_request.hpp"
 
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "cli/print.hpp"
 #include "scene/error.hpp"
 #include "scene/flatten.hpp"
@@ -43,11 +43,8 @@ void add_frame_options(CLI::App& command, FrameRequest& request) {
 }
 
 void add_flatten_options(CLI::App& command, FrameRequest& request) {
-    const auto set_threads = [&request](const std::string& text) {
-        request.threads = static_cast<int>(parse_number("--threads", text, threads_key));
-    };
-    command.add_option_function<std::string>("--threads", set_threads, "Threads; default: the CPUs this process may use")
-        ->type_name("N");
+    add_number_option(command, "--threads", "Threads; default: the CPUs this process may use", threads_key,
+                      [&request](double value) { request.threads = static_cast<int>(value); });
     add_settings_options(command, request.changes);
 }
 

@@ -55,7 +55,7 @@ void add_instruction_sets(JsonWriter& json, Precision precision) {
     }
     json.close_list();
     json.open_list("precisions");
-    for (const Precision one : {Precision::fast, Precision::balanced, Precision::reference}) {
+    for (const Precision one : {Precision::fast, Precision::balanced, Precision::precise, Precision::reference}) {
         json.open_object();
         json.add("name", std::string(name_of(one)));
         json.add("compiled", !best_isa(one).empty());

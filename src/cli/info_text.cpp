@@ -60,7 +60,7 @@ std::string instruction_sets(Precision precision) {
 
 std::string precisions(Precision used) {
     std::string text;
-    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference}) {
+    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::precise, Precision::reference}) {
         const char* state = best_isa(precision).empty() ? " (not in this build)" : precision == used ? " (used)" : "";
         text += (text.empty() ? "" : ", ") + std::string(name_of(precision)) + state;
     }

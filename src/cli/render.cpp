@@ -4,7 +4,7 @@
 #include "cli/frame_request.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/measure/budget_options.hpp"
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "cli/print.hpp"
 #include "cli/progress.hpp"
 #include "cli/render_report.hpp"
@@ -66,21 +66,15 @@ void add_options(CLI::App& command, RenderRequest& request) {
             },
             "How the PNG shows the radiance; default srgb")
         ->type_name("plain|srgb|reinhard|aces|neutral");
-    command
-        .add_option_function<std::string>(
-            "--exposure", [&](const std::string& text) { request.exposure = parse_number("--exposure", text, exposure_key); },
-            "The PNG shows the radiance times 2^EV; default 0")
-        ->type_name("EV");
+    add_number_option(command, "--exposure", "The PNG shows the radiance times 2^EV; default 0", exposure_key, [&](double value) {
+        request.exposure = value;
+    })->type_name("EV");
     command.add_flag("--float", request.float_pixels, "32-bit floats in the EXR instead of 16-bit halves");
     command.add_flag("--no-volatile-metadata", request.no_volatile_metadata,
                      "Leave out of the EXR what differs from run to run: ISA, threads, times, ray counts, host, date");
     command.add_flag("--stats", request.stats, "Print where the time went and which rays were traced");
-    command
-        .add_option_function<std::string>(
-            "--tile",
-            [&](const std::string& text) { request.tile_size = static_cast<int>(parse_number("--tile", text, tile_key)); },
-            "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it")
-        ->type_name("N");
+    add_number_option(command, "--tile", "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it",
+                      tile_key, [&](double value) { request.tile_size = static_cast<int>(value); });
     trade::add_budget_options(command, request.budget);
     add_frame_options(command, request.frame);
     add_flatten_options(command, request.frame);

@@ -1,6 +1,6 @@
 #include "cli/settings_options.hpp"
 
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "scene/scene_format.hpp"
 #include "scene/text_tools.hpp"
 
@@ -53,13 +53,10 @@ void add_switch(CLI::App& command, SettingsChanges& changes, const std::string& 
 template <class Set>
 void add_number(CLI::App& command, SettingsChanges& changes, const std::string& name, const char* help, const KeySpec& key,
                 const Set& set) {
-    const auto parsed = [&changes, name, &key, set](const std::string& text) {
-        changes.push_back([value = parse_number(name, text, key), set](RenderSettings& settings) { set(settings, value); });
+    const auto add = [&changes, set](double value) {
+        changes.push_back([value, set](RenderSettings& settings) { set(settings, value); });
     };
-    command.add_option_function<std::string>(name, parsed, help)
-        ->type_name(key.kind == ValueKind::whole ? "N" : "X")
-        ->group(group)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    add_number_option(command, name, help, key, add)->group(group)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 template <class Enum>

@@ -26,7 +26,7 @@ struct BuildOptions {
     int threads = 0;                    ///< 0: the CPUs this process may use. The scene does not depend on it
     std::string isa = "auto";           ///< auto, scalar, sse4.2, avx2, avx512
     std::string bvh = "default";        ///< default, or quality: slower to build, faster where triangles are long and thin
-    std::string precision = "balanced"; ///< fast (avx2, avx512), balanced, or reference: scalar, in double
+    std::string precision = "balanced"; ///< fast (avx2, avx512), balanced, or in double: precise (not scalar), reference (scalar)
 };
 
 inline constexpr std::uint32_t no_hit = 0xffffffffu;

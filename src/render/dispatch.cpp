@@ -65,21 +65,26 @@ std::vector<IsaInfo> known_isas() {
     std::vector<IsaInfo> isas;
     for (const KnownIsa& isa : known) {
         const KernelTable* table = compiled_table(isa.name, Precision::balanced);
-        isas.push_back({std::string(isa.name), table ? table->width : 0, table != nullptr,
-                        compiled_table(isa.name, Precision::fast) != nullptr, isa.supported()});
+        isas.push_back({std::string(isa.name), table ? table->width : 0, table != nullptr, isa.supported()});
     }
     return isas;
 }
 
 const char* name_of(Precision precision) {
-    constexpr const char* names[] = {"fast", "balanced", "reference"};
+    constexpr const char* names[] = {"fast", "balanced", "precise", "reference"};
     return names[static_cast<std::size_t>(precision)];
 }
 
 Precision precision_named(std::string_view name) {
-    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference})
+    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::precise, Precision::reference})
         if (name == name_of(precision)) return precision;
-    throw Error(ExitCode::usage, "precision '" + std::string(name) + "' does not exist; expected fast, balanced or reference");
+    throw Error(ExitCode::usage,
+                "precision '" + std::string(name) + "' does not exist; expected fast, balanced, precise or reference");
+}
+
+bool same_numbers(Precision a, Precision b) {
+    const auto in_double = [](Precision p) { return p == Precision::precise || p == Precision::reference; };
+    return a == b || (in_double(a) && in_double(b));
 }
 
 std::string_view best_isa(Precision precision) {
@@ -88,12 +93,31 @@ std::string_view best_isa(Precision precision) {
     return best == std::rend(known) ? "" : best->name;
 }
 
+std::vector<const KernelTable*> usable_kernels() {
+    std::vector<const KernelTable*> usable;
+    for (const KnownIsa& isa : known)
+        for (const KernelTable* table : tables)
+            if (table->isa == isa.name && isa.supported()) usable.push_back(table);
+    return usable;
+}
+
+std::vector<const KernelTable*> usable_kernels(Precision precision) {
+    std::vector<const KernelTable*> usable = usable_kernels();
+    std::erase_if(usable, [&](const KernelTable* table) { return table->precision != precision; });
+    return usable;
+}
+
+const KernelTable& truth_kernels() {
+    return find_kernels("auto", best_isa(Precision::precise).empty() ? Precision::reference : Precision::precise);
+}
+
 const KernelTable& find_kernels(std::string_view isa, Precision precision) {
     const std::string named = "precision '" + std::string(name_of(precision)) + "'";
     if (isa == "auto") {
         isa = best_isa(precision);
         if (isa.empty())
-            throw Error(ExitCode::isa, "this build has no kernels of " + named + " that this CPU runs; it needs avx2 or avx512");
+            throw Error(ExitCode::isa, "this build has no kernels of " + named + " that this CPU runs; it needs " +
+                                           (precision == Precision::precise ? "sse4.2, " : "") + "avx2 or avx512");
     }
     const auto* entry = std::find_if(std::begin(known), std::end(known), [&](const KnownIsa& k) { return k.name == isa; });
     const std::string quoted = "instruction set '" + std::string(isa) + "'";
@@ -102,6 +126,8 @@ const KernelTable& find_kernels(std::string_view isa, Precision precision) {
     }
     if (precision == Precision::reference && isa != "scalar")
         throw Error(ExitCode::usage, named + " is computed by 'scalar' only, not by " + quoted);
+    if (precision == Precision::precise && isa == "scalar")
+        throw Error(ExitCode::usage, named + " needs vectors; of 'scalar', 'reference' gives the same numbers");
     if (precision == Precision::fast && isa != "avx2" && isa != "avx512")
         throw Error(ExitCode::usage, named + " needs fused multiply-add: 'avx2' or 'avx512', not " + quoted);
     if (!entry->supported()) throw Error(ExitCode::isa, "this CPU lacks " + quoted + "; it can run " + usable_names());

@@ -65,7 +65,7 @@ constexpr KeySpec camera_keys[] = {{.name = "field", .range = {.low = 0, .high =
 // The order of the words is that of the enumerations.
 constexpr std::array<std::string_view, 4> anti_alias_modes{"off", "cross", "grid", "edge"};
 constexpr std::array<std::string_view, 3> bvh_modes{"off", "default", "quality"};
-constexpr std::array<std::string_view, 3> precisions{"fast", "balanced", "reference"};
+constexpr std::array<std::string_view, 4> precisions{"fast", "balanced", "precise", "reference"};
 
 constexpr KeySpec anti_aliasing_keys[] = {{.name = "mode", .kind = choice, .required = true, .choices = anti_alias_modes},
                                           {.name = "samples", .kind = whole, .range = {.low = 1, .high = 64}},

@@ -11,6 +11,9 @@ inline constexpr LaneTables<vector_width> lane_tables{};
 LANECAST_INLINE __m256i as_int(__m256 r) { return _mm256_castps_si256(r); }
 LANECAST_INLINE __m256 as_float(__m256i r) { return _mm256_castsi256_ps(r); }
 LANECAST_INLINE VectorFloat select(VectorMask m, VectorFloat a, VectorFloat b) { return _mm256_blendv_ps(b.r, a.r, m.r); }
+LANECAST_INLINE VectorInt select(VectorMask m, VectorInt a, VectorInt b) {
+    return as_int(select(m, VectorFloat(as_float(a.r)), VectorFloat(as_float(b.r))).r);
+}
 LANECAST_INLINE std::uint32_t bits(VectorMask m) { return static_cast<std::uint32_t>(_mm256_movemask_ps(m.r)); }
 LANECAST_INLINE VectorMask mask_from_bits_vector(std::uint32_t b) {
     const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -43,7 +46,6 @@ LANECAST_INLINE float reduce_max(VectorFloat a) {
     x = _mm_max_ps(x, _mm_movehl_ps(x, x));
     return _mm_cvtss_f32(_mm_max_ss(x, _mm_movehdup_ps(x)));
 }
-LANECAST_INLINE VectorFloat gather(const float* p, VectorInt i) { return _mm256_i32gather_ps(p, i.r, 4); }
 LANECAST_INLINE VectorInt gather(const std::int32_t* p, VectorInt i) { return _mm256_i32gather_epi32(p, i.r, 4); }
 
 #if LANECAST_FAST
@@ -62,9 +64,12 @@ LANECAST_INLINE Doubles operator+(Doubles a, Doubles b) { return {_mm256_add_pd(
 LANECAST_INLINE Doubles operator-(Doubles a, Doubles b) { return {_mm256_sub_pd(a.lo, b.lo), _mm256_sub_pd(a.hi, b.hi)}; }
 LANECAST_INLINE Doubles operator*(Doubles a, Doubles b) { return {_mm256_mul_pd(a.lo, b.lo), _mm256_mul_pd(a.hi, b.hi)}; }
 
-LANECAST_INLINE __m256 permute_lanes(__m256 a, const std::uint8_t* lanes) {
+LANECAST_INLINE VectorFloat permute_lanes(VectorFloat a, const std::uint8_t* lanes) {
     const __m256i index = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanes)));
-    return _mm256_permutevar8x32_ps(a, index);
+    return _mm256_permutevar8x32_ps(a.r, index);
+}
+LANECAST_INLINE VectorInt permute_lanes(VectorInt a, const std::uint8_t* lanes) {
+    return as_int(permute_lanes(VectorFloat(as_float(a.r)), lanes).r);
 }
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -49,7 +49,6 @@ LANECAST_INLINE VectorFloat odds(VectorFloat a, VectorFloat b) {
     const __m512i lanes = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
     return _mm512_permutex2var_ps(a.r, lanes, b.r);
 }
-LANECAST_INLINE VectorFloat gather(const float* p, VectorInt i) { return _mm512_i32gather_ps(i.r, p, 4); }
 LANECAST_INLINE VectorInt gather(const std::int32_t* p, VectorInt i) { return _mm512_i32gather_epi32(i.r, p, 4); }
 // To a register and then a full store: compressing to memory is microcoded on Zen 4, some 100 cycles.
 LANECAST_INLINE VectorFloat compress(VectorFloat a, VectorMask m) { return _mm512_maskz_compress_ps(m.r, a.r); }

@@ -4,10 +4,16 @@
 
 #include "simd/scalar.hpp"
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && LANECAST_PRECISE
+#include "simd/avx512_double.hpp"
+#elif defined(__AVX512F__)
 #include "simd/avx512.hpp"
+#elif defined(__AVX2__) && LANECAST_PRECISE
+#include "simd/avx2_double.hpp"
 #elif defined(__AVX2__)
 #include "simd/avx2.hpp"
+#elif LANECAST_VECTOR && LANECAST_PRECISE
+#include "simd/sse42_double.hpp"
 #elif LANECAST_VECTOR
 #include "simd/sse42.hpp"
 #endif
@@ -17,30 +23,26 @@ namespace lanecast::inline LANECAST_ISA {
 #if LANECAST_VECTOR
 
 #if !defined(__AVX512F__)
-LANECAST_INLINE VectorFloat compress(VectorFloat a, VectorMask m) { return permute_lanes(a.r, lane_tables.compress[bits(m)]); }
-LANECAST_INLINE VectorInt compress(VectorInt a, VectorMask m) {
-    return as_int(permute_lanes(as_float(a.r), lane_tables.compress[bits(m)]));
-}
+LANECAST_INLINE VectorFloat compress(VectorFloat a, VectorMask m) { return permute_lanes(a, lane_tables.compress[bits(m)]); }
+LANECAST_INLINE VectorInt compress(VectorInt a, VectorMask m) { return permute_lanes(a, lane_tables.compress[bits(m)]); }
 LANECAST_INLINE VectorFloat expand(VectorFloat a, VectorMask m) {
-    return select(m, VectorFloat(permute_lanes(a.r, lane_tables.expand[bits(m)])), VectorFloat(0.0f));
+    return select(m, permute_lanes(a, lane_tables.expand[bits(m)]), VectorFloat(0));
 }
 LANECAST_INLINE VectorInt expand(VectorInt a, VectorMask m) {
-    const VectorFloat moved = permute_lanes(as_float(a.r), lane_tables.expand[bits(m)]);
-    return as_int(select(m, moved, VectorFloat(0.0f)).r);
-}
-LANECAST_INLINE VectorInt select(VectorMask m, VectorInt a, VectorInt b) {
-    return as_int(select(m, VectorFloat(as_float(a.r)), VectorFloat(as_float(b.r))).r);
+    return select(m, permute_lanes(a, lane_tables.expand[bits(m)]), VectorInt(0));
 }
 #endif
 
 template <>
 struct BatchTraits<VectorFloat> {
-    using Scalar = float;
+    using Scalar = Real;
     using Mask = VectorMask;
     using Int = VectorInt;
     static constexpr int width = vector_width;
-    LANECAST_INLINE static VectorFloat load(const float* p) { return load_vector(p); }
-#if !defined(__AVX512F__)
+    LANECAST_INLINE static VectorFloat load(const Real* p) { return load_vector(p); }
+#if LANECAST_PRECISE
+    LANECAST_INLINE static VectorFloat load_eight(const float* p) { return load_floats(p); }
+#elif !defined(__AVX512F__)
     LANECAST_INLINE static VectorFloat load_eight(const float* p) { return load_vector(p); }
 #endif
     LANECAST_INLINE static VectorInt load_int(const std::int32_t* p) { return load_vector(p); }
@@ -48,8 +50,7 @@ struct BatchTraits<VectorFloat> {
 };
 
 LANECAST_INLINE VectorInt multiply_add(VectorInt i, std::uint32_t m, std::uint32_t c) {
-    using Batch = VectorInt::Batch;
-    return IntRegister(Batch(i.r) * Batch(static_cast<std::int32_t>(m)) + Batch(static_cast<std::int32_t>(c)));
+    return IntRegister(VectorInt::Lanes(i.r) * m + c);
 }
 LANECAST_INLINE VectorFloat min(VectorFloat a, VectorFloat b) {
     return VectorFloat::Register(xsimd::min(VectorFloat::Batch(a.r), VectorFloat::Batch(b.r)));
@@ -58,12 +59,33 @@ LANECAST_INLINE VectorFloat max(VectorFloat a, VectorFloat b) {
     return VectorFloat::Register(xsimd::max(VectorFloat::Batch(a.r), VectorFloat::Batch(b.r)));
 }
 LANECAST_INLINE VectorFloat abs(VectorFloat a) {
-    return VectorFloat::Register(VectorFloat::Batch(a.r) & ~VectorFloat::Batch(-0.0f));
+    return VectorFloat::Register(VectorFloat::Batch(a.r) & ~VectorFloat::Batch(Real(-0.0)));
 }
 LANECAST_INLINE VectorFloat copysign(VectorFloat magnitude, VectorFloat sign) {
-    const VectorFloat::Batch sign_bit(-0.0f);
+    const VectorFloat::Batch sign_bit(Real(-0.0));
     return VectorFloat::Register((VectorFloat::Batch(magnitude.r) & ~sign_bit) | (VectorFloat::Batch(sign.r) & sign_bit));
 }
+LANECAST_INLINE bool any(VectorMask m) { return bits(m) != 0; }
+LANECAST_INLINE bool none(VectorMask m) { return bits(m) == 0; }
+LANECAST_INLINE bool all(VectorMask m) { return bits(m) == (1u << vector_width) - 1u; }
+
+#if LANECAST_PRECISE
+LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) { return a * b + c; }
+LANECAST_INLINE VectorFloat sum_of_squares_less(VectorFloat a, VectorFloat b, VectorFloat c, VectorFloat d) {
+    return a * a + b * b + c * c - d * d;
+}
+LANECAST_INLINE VectorFloat split_exponent(VectorFloat x, VectorFloat& e) {
+    using Longs = xsimd::batch<std::int64_t, Arch>;
+    const Longs root_half(0x3fe6a09e667f3bcd);
+    const Longs i = Longs(as_int(x.r)) - root_half;
+    e = to_float(shift_right(upper_halves(i), 20));
+    return as_float((i & Longs(0x000fffffffffffff)) + root_half);
+}
+LANECAST_INLINE VectorFloat power_of_two(VectorFloat n) {
+    const VectorFloat exponent = n + VectorFloat(4503599627370496.0 + 1023); // 2^52 + k has k in its lowest bits
+    return as_float(xsimd::batch<std::int64_t, Arch>(as_int(exponent.r)) << 52);
+}
+#else
 #if !LANECAST_FAST
 LANECAST_INLINE VectorFloat fused(VectorFloat a, VectorFloat b, VectorFloat c) {
     return to_float(to_double(a) * to_double(b) + to_double(c));
@@ -73,10 +95,6 @@ LANECAST_INLINE VectorFloat sum_of_squares_less(VectorFloat a, VectorFloat b, Ve
     const Doubles x = to_double(a), y = to_double(b), z = to_double(c), w = to_double(d);
     return to_float(x * x + y * y + z * z - w * w);
 }
-LANECAST_INLINE bool any(VectorMask m) { return bits(m) != 0; }
-LANECAST_INLINE bool none(VectorMask m) { return bits(m) == 0; }
-LANECAST_INLINE bool all(VectorMask m) { return bits(m) == (1u << vector_width) - 1u; }
-
 LANECAST_INLINE VectorFloat split_exponent(VectorFloat x, VectorFloat& e) {
     const VectorInt root_half(0x3f3504f3);
     const VectorInt i = VectorInt(as_int(x.r)) - root_half;
@@ -84,8 +102,10 @@ LANECAST_INLINE VectorFloat split_exponent(VectorFloat x, VectorFloat& e) {
     return as_float(((i & VectorInt(0x007fffff)) + root_half).r);
 }
 LANECAST_INLINE VectorFloat power_of_two(VectorFloat n) { return as_float(shift_left(to_int(n) + VectorInt(127), 23).r); }
+#endif
 LANECAST_INLINE VectorFloat round_to_integer(VectorFloat x) {
-    const VectorFloat shift = copysign(VectorFloat(12582912.0f), x);
+    const Real mantissa_end = LANECAST_PRECISE ? Real(6755399441055744.0) : Real(12582912); // 1.5 * 2^52, 1.5 * 2^23
+    const VectorFloat shift = copysign(VectorFloat(mantissa_end), x);
     return (x + shift) - shift;
 }
 
@@ -107,7 +127,7 @@ using NativeFloat = float;
 
 /// The batch for eight items of the scene, tested at once by one ray or by one packet's bounds: F, or half of it where F is
 /// wider.
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !LANECAST_PRECISE
 template <class F>
 struct EightOf {
     using Type = F;
@@ -123,7 +143,7 @@ template <FloatBatch F>
 using Eight = F;
 #endif
 
-/// float for every float batch, double for the reference.
+/// float, or double for `precise` and the reference.
 template <FloatBatch F>
 using Scalar = typename BatchTraits<F>::Scalar;
 template <FloatBatch F>
@@ -153,10 +173,6 @@ LANECAST_INLINE void store(T* p, T a) {
     *p = a;
 }
 LANECAST_INLINE void store(std::int32_t* p, std::int32_t a) { *p = a; }
-template <ScalarBatch T>
-LANECAST_INLINE T gather(const T* p, std::int32_t i) {
-    return p[i];
-}
 LANECAST_INLINE std::int32_t gather(const std::int32_t* p, std::int32_t i) { return p[i]; }
 
 template <FloatBatch F>

@@ -10,7 +10,7 @@ struct VectorMask {
     Register r;
     VectorMask() = default;
     LANECAST_INLINE VectorMask(Register register_) : r(register_) {}
-    LANECAST_INLINE explicit VectorMask(bool b) : r(xsimd::batch_bool<float, Arch>(b)) {}
+    LANECAST_INLINE explicit VectorMask(bool b) : r(xsimd::batch_bool<Real, Arch>(b)) {}
     LANECAST_INLINE friend VectorMask operator&(VectorMask a, VectorMask b) {
         return Register(VectorFloat::Batch(a.r) & VectorFloat::Batch(b.r));
     }

@@ -109,6 +109,7 @@ TEST_CASE("2: usage, in one line that names the option, and a line on help") {
         {"render", small, "--isa", "avx2", "--precision", "reference"},
         {"pick", small, "1", "1", "--isa", "sse4.2", "--precision", "reference"},
         {"render", small, "--isa", "sse4.2", "--precision", "fast"},
+        {"render", small, "--isa", "scalar", "--precision", "precise"},
     };
     const TemporaryDirectory directory;
     for (const auto& arguments : wrong) {

@@ -29,20 +29,10 @@ const std::map<std::string, Target> known_misses{
     {"N17", {.failure_rate = 0.03, .mean = 1e-4}},
 };
 
-std::vector<const KernelTable*> all_kernels() {
-    std::vector<const KernelTable*> tables{&find_kernels("scalar", Precision::reference)};
-    for (const IsaInfo& isa : known_isas()) {
-        if (!isa.compiled || !isa.supported) continue;
-        tables.push_back(&find_kernels(isa.name, Precision::balanced));
-        if (isa.fast) tables.push_back(&find_kernels(isa.name, Precision::fast));
-    }
-    return tables;
-}
-
 } // namespace
 
 TEST_CASE("the invariants of docs/extremes.md hold") {
-    const std::vector<const KernelTable*> kernels = all_kernels();
+    const std::vector<const KernelTable*> kernels = usable_kernels();
     const std::atomic<bool> stop{false};
     for (const Case& c : all_cases()) {
         const Plan plan = make_plan(c, kernels, std::max<std::uint64_t>(c.quick_rays / fewer, 65536));

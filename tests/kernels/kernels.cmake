@@ -1,8 +1,8 @@
 # Tests of the SIMD kernels, one executable per ISA.
-lanecast_isa_test(test_simd FAST LABELS unit determinism SOURCES kernels/simd_test.cpp)
-lanecast_isa_test(test_pow LABELS unit determinism SOURCES kernels/pow_test.cpp)
+lanecast_isa_test(test_simd FAST PRECISE LABELS unit determinism SOURCES kernels/simd_test.cpp)
+lanecast_isa_test(test_pow PRECISE LABELS unit determinism SOURCES kernels/pow_test.cpp)
 lanecast_isa_test(test_triangle FAST LABELS unit SOURCES kernels/triangle_test.cpp)
-lanecast_isa_test(test_candidates FAST LABELS unit determinism SOURCES kernels/candidates_test.cpp)
+lanecast_isa_test(test_candidates FAST PRECISE LABELS unit determinism SOURCES kernels/candidates_test.cpp)
 lanecast_isa_test(test_quadric FAST LABELS unit SOURCES kernels/quadric_test.cpp)
 lanecast_isa_test(test_optics LABELS unit SOURCES kernels/optics_test.cpp)
 lanecast_isa_test(test_cone LABELS unit SOURCES kernels/cone_test.cpp)

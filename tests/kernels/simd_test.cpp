@@ -414,10 +414,8 @@ TEST_CASE("load_eight, gather, reduce_min and reduce_max") {
         }
         CHECK(reduce_min(load(x)) == lowest);
         CHECK(reduce_max(load(x)) == highest);
-        const Lanes picked = lanes_of(gather(x.v, load_int<F>(index.v)));
         const IntLanes picked_int = lanes_of_int(gather(table.v, load_int<F>(index.v)));
         for (int i = 0; i < W; ++i) {
-            CHECK(picked[i] == x[index[i]]);
             CHECK(picked_int[i] == table[index[i]]);
         }
     }

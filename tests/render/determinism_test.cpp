@@ -1,5 +1,6 @@
 // "Same bytes": the film of given settings is one, whatever the instruction set, threads, tiles, crop, tree or unit of length.
 
+#include "cli/selftest/scenes.hpp"
 #include "render/render_support.hpp"
 
 #include <doctest/doctest.h>
@@ -55,16 +56,17 @@ void for_each_shot(Body&& body) {
             body(scene, Shot{{64, 48, {0, 0, 0, 0}, 1, 32}, settings});
         }
 }
-/// `fast` promises the same but for other instruction sets; they take turns.
+/// `fast` promises the same but for other instruction sets, `precise` all of it; they take turns.
 template <class Body>
-void for_each_fast_shot(Body&& body) {
-    const std::vector<const KernelTable*> tables = fast_kernels();
+void for_each_other_shot(Body&& body) {
+    std::vector<const KernelTable*> tables = usable_kernels(Precision::precise);
+    for (const KernelTable* fast : fast_kernels()) tables.push_back(fast);
     std::size_t n = 0;
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) {
         if (tables.empty()) return;
         const KernelTable& kernels = *tables[n++ % tables.size()];
-        const std::string fast_on = kernels.isa;
-        CAPTURE(fast_on);
+        const std::string on = kernels.isa + std::string(" ") + name_of(kernels.precision);
+        CAPTURE(on);
         body(kernels, scene, shot);
     });
 }
@@ -90,6 +92,19 @@ TEST_CASE("same bytes on every instruction set") {
     });
 }
 
+TEST_CASE("precise: the bytes of the reference on every instruction set") {
+    const std::vector<const KernelTable*> tables = usable_kernels(Precision::precise);
+    if (tables.empty()) MESSAGE("skipped: no kernels of precision precise in this build or for this CPU");
+    for_each_shot([&](const SceneDescription& scene, const Shot& shot) {
+        if (tables.empty()) return;
+        const Frame scalar = shoot(reference_kernels(), scene, shot);
+        for (const KernelTable* kernels : tables) {
+            CAPTURE(kernels->isa);
+            CHECK(film_difference(scalar.film, shoot(*kernels, scene, shot).film) == "");
+        }
+    });
+}
+
 TEST_CASE("same bytes with any number of threads") {
     const auto check = [](const KernelTable& kernels, const SceneDescription& scene, Shot shot) {
         shot.options.tile_size = 8;
@@ -101,7 +116,7 @@ TEST_CASE("same bytes with any number of threads") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
-    for_each_fast_shot(check);
+    for_each_other_shot(check);
 }
 
 TEST_CASE("same bytes with any size of tiles") {
@@ -115,7 +130,7 @@ TEST_CASE("same bytes with any size of tiles") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
-    for_each_fast_shot(check);
+    for_each_other_shot(check);
 }
 
 TEST_CASE("same bytes in any crop, for every anti-aliasing mode") {
@@ -135,7 +150,7 @@ TEST_CASE("same bytes in any crop, for every anti-aliasing mode") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot, 6); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot, 4); });
-    for_each_fast_shot(
+    for_each_other_shot(
         [&](const KernelTable& kernels, const SceneDescription& scene, const Shot& shot) { check(kernels, scene, shot, 4); });
 }
 
@@ -149,7 +164,7 @@ TEST_CASE("same bytes without the tree, and with the one of spatial splits") {
     };
     for_each_shot([&](const SceneDescription& scene, const Shot& shot) { check(*balanced_kernels().back(), scene, shot); });
     for_each_reference_shot([&](const SceneDescription& scene, const Shot& shot) { check(reference_kernels(), scene, shot); });
-    for_each_fast_shot(check);
+    for_each_other_shot(check);
 }
 
 TEST_CASE("same bytes where mirrors and glass are split: no part of a triangle hits its own ray") {
@@ -182,7 +197,8 @@ TEST_CASE("same bytes in any unit of length: every length times 2^k") {
         const Frame one = shoot(*balanced_kernels().back(), scene, shot);
         for (const int k : {-40, -7, 1, 23, 40}) {
             CAPTURE(k);
-            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), scaled_scene(scene, k), shot).film) == "");
+            CHECK(film_difference(one.film, shoot(*balanced_kernels().back(), selftest::scaled_scene(scene, k), shot).film) ==
+                  "");
         }
     });
 }

@@ -22,6 +22,13 @@ ExitCode code_of(std::string_view isa, Precision precision) {
     return ExitCode::done;
 }
 
+constexpr Precision every_precision[] = {Precision::fast, Precision::balanced, Precision::precise, Precision::reference};
+
+bool usable(std::string_view isa, Precision precision) {
+    const std::vector<const KernelTable*> tables = usable_kernels(precision);
+    return std::any_of(tables.begin(), tables.end(), [&](const KernelTable* table) { return table->isa == isa; });
+}
+
 } // namespace
 
 TEST_CASE("every instruction set is found where build and CPU have it, and is an error elsewhere") {
@@ -69,7 +76,7 @@ TEST_CASE("fast is a table of its own where there is fused multiply-add, or the 
     for (const IsaInfo& isa : known_isas()) {
         if (isa.name == "scalar" || isa.name == "sse4.2") continue;
         CAPTURE(isa.name);
-        if (isa.fast && isa.supported) {
+        if (usable(isa.name, Precision::fast)) {
             const KernelTable& table = find_kernels(isa.name, Precision::fast);
             CHECK(table.isa == isa.name);
             CHECK(table.width == isa.width);
@@ -94,10 +101,45 @@ TEST_CASE("fast is a table of its own where there is fused multiply-add, or the 
     }
 }
 
+TEST_CASE("precise is a table of its own where there are vectors, half as wide, or the message says what is lacking") {
+    CHECK(code_of("scalar", Precision::precise) == ExitCode::usage);
+    for (const IsaInfo& isa : known_isas()) {
+        if (isa.name == "scalar") continue;
+        CAPTURE(isa.name);
+        if (usable(isa.name, Precision::precise)) {
+            const KernelTable& table = find_kernels(isa.name, Precision::precise);
+            CHECK(table.isa == isa.name);
+            CHECK(table.width == isa.width / 2);
+            CHECK(table.precision == Precision::precise);
+        } else {
+            CHECK(code_of(isa.name, Precision::precise) == ExitCode::isa);
+        }
+    }
+    CHECK(truth_kernels().precision == (best_isa(Precision::precise).empty() ? Precision::reference : Precision::precise));
+}
+
+TEST_CASE("the tables that are usable are those that can be found") {
+    std::size_t found = 0;
+    for (const IsaInfo& isa : known_isas())
+        for (const Precision precision : every_precision)
+            if (code_of(isa.name, precision) == ExitCode::done) {
+                ++found;
+                CHECK(usable(isa.name, precision));
+            }
+    CHECK(usable_kernels().size() == found);
+    for (const Precision precision : every_precision)
+        for (const KernelTable* table : usable_kernels(precision)) CHECK(table->precision == precision);
+}
+
 TEST_CASE("precisions have names") {
-    for (const Precision precision : {Precision::fast, Precision::balanced, Precision::reference})
-        CHECK(precision_named(name_of(precision)) == precision);
-    CHECK_THROWS_AS((void)precision_named("precise"), Error);
+    for (const Precision precision : every_precision) CHECK(precision_named(name_of(precision)) == precision);
+    CHECK_THROWS_AS((void)precision_named("exact"), Error);
+}
+
+TEST_CASE("only precise and the reference share their numbers") {
+    for (const Precision a : every_precision)
+        for (const Precision b : every_precision)
+            CHECK(same_numbers(a, b) == (a == b || (a >= Precision::precise && b >= Precision::precise)));
 }
 
 TEST_CASE("a name that does not exist is a usage error") {

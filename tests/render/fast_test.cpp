@@ -24,8 +24,8 @@ Rays random_rays(Random& random, int n) {
     for (int i = 0; i < n; ++i) {
         const glm::dvec3 o = camera ? eye : random.point(2);
         const bool near_only = ranged && random.chance(0.5);
-        rays.add(o, random.point(0.5) - o, ranged ? static_cast<float>(random.uniform(0, 0.5)) : 0.0f,
-                 near_only ? 1.0f : infinity);
+        rays.add(o, random.point(0.5) - o);
+        rays.add_range(ranged ? static_cast<float>(random.uniform(0, 0.5)) : 0.0f, near_only ? 1.0f : infinity);
     }
     return rays;
 }
@@ -132,10 +132,10 @@ TEST_CASE("fast: tree, batch and neighbours change no bit of a ray's answer") {
         for (const KernelTable* kernels : fast_kernels()) {
             const std::string isa = kernels->isa;
             CAPTURE(isa);
-            const Hits alone = ask(*kernels, view(arrays), rays, Ask::closest, true);
-            const Hits tree = ask(*kernels, view(arrays), rays, Ask::closest);
-            const Hits few = ask(*kernels, view(arrays), picked(rays, order), Ask::closest);
-            const Hits shadow = ask(*kernels, view(arrays), picked(rays, order), Ask::any);
+            const Hits alone = ask(*kernels, view(arrays), rays, Query::closest, true);
+            const Hits tree = ask(*kernels, view(arrays), rays, Query::closest);
+            const Hits few = ask(*kernels, view(arrays), picked(rays, order), Query::closest);
+            const Hits shadow = ask(*kernels, view(arrays), picked(rays, order), Query::any);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 REQUIRE(tree.slot[i] == alone.slot[i]);
                 REQUIRE(bits_of(tree.t[i]) == bits_of(alone.t[i]));
@@ -183,9 +183,10 @@ TEST_CASE("fast: as near to the reference as published") {
         for (int n = 0; n < cases(100); ++n) {
             const SceneArrays arrays = flatten(kind.make(random), RenderSettings{}, 1);
             const Rays rays = random_rays(random, 10000);
-            const Hits truth = ask(reference_kernels(), view(arrays), rays, Ask::closest);
-            balanced.add(ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest), truth);
-            for (std::size_t k = 0; k < tables.size(); ++k) fast[k].add(ask(*tables[k], view(arrays), rays, Ask::closest), truth);
+            const Hits truth = ask(reference_kernels(), view(arrays), rays, Query::closest);
+            balanced.add(ask(*balanced_kernels().back(), view(arrays), rays, Query::closest), truth);
+            for (std::size_t k = 0; k < tables.size(); ++k)
+                fast[k].add(ask(*tables[k], view(arrays), rays, Query::closest), truth);
         }
         MESSAGE("balanced: ", balanced.text());
         for (std::size_t k = 0; k < tables.size(); ++k) {

@@ -1,10 +1,10 @@
 #pragma once
 // Batches of rays in memory, traced through a KernelTable.
 
+#include "cli/selftest/rays.hpp"
 #include "render/dispatch.hpp"
 #include "scene/geometry_support.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -22,56 +22,16 @@ inline constexpr int fewer = 1;
 constexpr int cases(int n) { return n / fewer > 0 ? n / fewer : 1; }
 
 /// The balanced kernels that this build holds and this CPU runs, scalar first.
-inline std::vector<const KernelTable*> balanced_kernels() {
-    std::vector<const KernelTable*> tables;
-    for (const IsaInfo& isa : known_isas())
-        if (isa.compiled && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::balanced));
-    return tables;
-}
+inline std::vector<const KernelTable*> balanced_kernels() { return usable_kernels(Precision::balanced); }
 /// The fast ones, slowest first; none in a build without them.
-inline std::vector<const KernelTable*> fast_kernels() {
-    std::vector<const KernelTable*> tables;
-    for (const IsaInfo& isa : known_isas())
-        if (isa.fast && isa.supported) tables.push_back(&find_kernels(isa.name, Precision::fast));
-    return tables;
-}
+inline std::vector<const KernelTable*> fast_kernels() { return usable_kernels(Precision::fast); }
 inline const KernelTable& scalar_kernels() { return find_kernels("scalar", Precision::balanced); }
 inline const KernelTable& reference_kernels() { return find_kernels("auto", Precision::reference); }
 
-struct Rays {
-    std::vector<float> org[3], dir[3], tmin, tmax;
-    [[nodiscard]] std::size_t size() const { return tmin.size(); }
-    void add(const glm::dvec3& o, const glm::dvec3& d, float lo = 0, float hi = std::numeric_limits<float>::infinity()) {
-        for (int axis = 0; axis < 3; ++axis) {
-            org[axis].push_back(static_cast<float>(o[axis]));
-            dir[axis].push_back(static_cast<float>(d[axis]));
-        }
-        tmin.push_back(lo);
-        tmax.push_back(hi);
-    }
-};
+using selftest::bits_of, selftest::Hits, selftest::Query, selftest::Rays;
 
-struct Hits {
-    std::vector<float> t;
-    std::vector<std::int32_t> slot;
-};
-
-enum class Ask { closest, any };
-
-inline Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, Ask what, bool brute_force = false) {
-    Hits hits{std::vector<float>(rays.size(), -7.0f), std::vector<std::int32_t>(rays.size(), -7)};
-    RayStream stream{};
-    for (int axis = 0; axis < 3; ++axis) stream.org[axis] = rays.org[axis].data(), stream.dir[axis] = rays.dir[axis].data();
-    stream.tmin = rays.tmin.data();
-    stream.tmax = rays.tmax.data();
-    stream.t = hits.t.data();
-    stream.slot = hits.slot.data();
-    stream.brute_force = brute_force ? 1 : 0;
-    stream.count = static_cast<std::uint32_t>(rays.size());
-    (what == Ask::closest ? kernels.closest_hit : kernels.any_hit)(scene, stream);
-    return hits;
+inline Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, Query what, bool brute_force = false) {
+    return selftest::ask(kernels, scene, rays, selftest::Path::batch, what, brute_force);
 }
-
-inline std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x); }
 
 } // namespace lanecast::test

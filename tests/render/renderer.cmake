@@ -24,3 +24,6 @@ lanecast_test(test_switches LABELS unit
   render/switches_test.cpp
   render/render_support.cpp
   scene/geometry_support.cpp)
+foreach(test test_traversal test_determinism test_fast test_switches) # scenes and rays of `lanecast selftest`
+  target_link_libraries(${test} PRIVATE lanecast_selftest)
+endforeach()

@@ -363,7 +363,7 @@ TEST_CASE("cross is the mean of five pictures, moved up, down, left and right; w
                 d[axis] = static_cast<double>(camera.forward[axis] + (camera.right[axis] * sx + camera.up[axis] * sy));
             rays.add({camera.org[0], camera.org[1], camera.org[2]}, d);
         }
-    const Hits hits = ask(fastest(), view(arrays), rays, Ask::closest);
+    const Hits hits = ask(fastest(), view(arrays), rays, Query::closest);
     for (const bool planes : {true, false}) {
         s.anti_aliasing.planes = planes;
         const Film cross = film_of(scene, s);

@@ -67,7 +67,7 @@ TEST_CASE("pixels are those of the frame, in every mode of anti-aliasing and in 
         settings.anti_aliasing = aa;
         settings.soft_shadows = 2;
         const SceneArrays arrays = flatten(scene, settings, 2);
-        FrameOptions options = sized(200, 150);
+        const FrameOptions options = fewer > 1 ? sized(100, 70) : sized(200, 150);
         const Frame frame = render_frame(kernels, arrays, scene.camera, settings, options);
         for (const TileSample& sample : {spread_tiles(options, 7), every_tile(options), in_tiles_of(spread_tiles(options, 7), 5),
                                          in_tiles_of(every_tile(options), 64)}) {

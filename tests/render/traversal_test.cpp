@@ -1,5 +1,6 @@
 // Tree = brute force, every ISA = scalar, bit for bit, on rays of every coherence; and what rays that are not rays do.
 
+#include "cli/selftest/scenes.hpp"
 #include "render/ray_support.hpp"
 
 #include <doctest/doctest.h>
@@ -11,76 +12,12 @@ using namespace lanecast::test;
 
 namespace {
 
-/// A point of the scene that rays are aimed at: vertices, centres, rims; or anywhere.
-glm::dvec3 target(Random& random, const SceneArrays& scene) {
-    const std::uint32_t slots = scene.first_slot[6];
-    if (slots == 0 || random.chance(0.2)) return random.point(1);
-    const auto slot = static_cast<std::uint32_t>(random.below(static_cast<int>(slots)));
-    if (slot < scene.first_slot[1]) {
-        const std::uint32_t block = scene.triangles[slot].block, n = (block >> 3 & 7u) + 1;
-        const auto* rows = reinterpret_cast<const float*>(scene.arena.get() + std::size_t{block >> 6} * 64) + (block & 7u);
-        const auto vertex = [&](std::uint32_t v) {
-            return glm::dvec3(rows[3 * v * n], rows[(3 * v + 1) * n], rows[(3 * v + 2) * n]);
-        };
-        const glm::dvec3 a = vertex(0), b = vertex(1);
-        return random.chance(0.3) ? a : a + (b - a) * random.uniform(0, 1);
-    }
-    if (slot < scene.first_slot[2]) {
-        const SphereRecord& s = scene.spheres[slot - scene.first_slot[1]];
-        return glm::dvec3(s.centre[0], s.centre[1], s.centre[2]) + random.direction() * double{s.radius};
-    }
-    const AffineRecord& a = scene.affines[slot - scene.first_slot[2]];
-    const AffineShadingRecord& f = scene.affine_shading[slot - scene.first_slot[2]];
-    glm::dvec3 p = random.direction(), q(a.translation[0], a.translation[1], a.translation[2]);
-    if (slot >= scene.first_slot[3]) p.y = random.chance(0.5) ? std::copysign(0.5, p.y) : 0.5 * p.y;
-    const double radius = 1 + double{a.taper} * p.y;
-    p.x *= radius, p.z *= radius;
-    for (int row = 0; row < 3; ++row)
-        for (int c = 0; c < 3; ++c) q[row] += double{f.world_from_object[3 * row + c]} * p[c];
-    return q;
-}
-
-/// Up to 2000 rays: one origin, one direction, all different, along the axes, from far away, aimed, in mixed order and lengths.
+/// Up to 2000 rays of one of the selftest's kinds; every one has a range.
 Rays random_rays(Random& random, const SceneArrays& scene, double farthest = 1e6) {
-    Rays rays;
-    const int kind = random.below(8), n = 1 + random.below(random.chance(0.5) ? 40 : 2000);
-    const bool ranged = random.chance(0.3);
-    const glm::dvec3 eye = random.point(3), way = random.direction();
-    const double length = random.chance(0.5) ? 1 : std::exp(random.uniform(-8, 8)), cone = std::exp(random.uniform(-6, 0));
-    for (int i = 0; i < n; ++i) {
-        glm::dvec3 o = random.point(1.5), d = random.direction();
-        switch (kind) {
-        case 0: // a camera
-            o = eye, d = glm::normalize(-eye + random.point(0.001)) + random.point(cone);
-            break;
-        case 1: // a sun
-            d = way;
-            break;
-        case 2: // everything
-            break;
-        case 3: // along the axes and in their planes, from lattice points; zeros of both signs
-            o = glm::dvec3(random.below(9) - 4, random.below(9) - 4, random.below(9) - 4) * 0.25;
-            d = glm::dvec3(random.below(3) - 1, random.below(3) - 1, random.below(3) - 1);
-            for (int axis = 0; axis < 3; ++axis)
-                if (d[axis] == 0 && random.chance(0.5)) d[axis] = -0.0;
-            break;
-        case 4: // from far away
-            o = random.direction() * std::exp(random.uniform(1, std::log(farthest))), d = target(random, scene) - o;
-            break;
-        case 5: // aimed from one point
-            o = eye, d = target(random, scene) - o;
-            break;
-        case 6: // from one surface to the next
-            o = target(random, scene), d = target(random, scene) - o;
-            break;
-        default: // diagonals: ties between the axes
-            d = glm::dvec3(random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1) * way.x;
-        }
-        float lo = 0, hi = std::numeric_limits<float>::infinity();
-        if (ranged && random.chance(0.7)) lo = static_cast<float>(random.uniform(0, 1.5) / length);
-        if (ranged && random.chance(0.7)) hi = lo + static_cast<float>(random.uniform(0, 1.5) / length);
-        rays.add(o, d * length, lo, hi);
-    }
+    const int n = 1 + random.below(random.chance(0.5) ? 40 : 2000);
+    selftest::Random source(random.engine());
+    Rays rays = selftest::random_rays(scene, static_cast<std::uint64_t>(n), farthest, source);
+    while (rays.tmin.size() < rays.size()) rays.add_range(0, std::numeric_limits<float>::infinity());
     return rays;
 }
 
@@ -91,7 +28,7 @@ struct Tally {
 /// Compares every table's tree and brute force with the scalar brute force; "" or the first difference.
 std::string check_all(const SceneArrays& arrays, const Rays& rays, Tally& tally) {
     const SceneView scene = view(arrays);
-    const Hits truth = ask(scalar_kernels(), scene, rays, Ask::closest, true);
+    const Hits truth = ask(scalar_kernels(), scene, rays, Query::closest, true);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ++tally.rays;
         tally.hits += truth.slot[i] >= 0;
@@ -101,8 +38,8 @@ std::string check_all(const SceneArrays& arrays, const Rays& rays, Tally& tally)
     for (const KernelTable* kernels : balanced_kernels()) {
         for (const bool brute_force : {false, true}) {
             const std::string name = std::string(kernels->isa) + (brute_force ? " brute force" : " tree");
-            const Hits hits = ask(*kernels, scene, rays, Ask::closest, brute_force);
-            const Hits shadow = ask(*kernels, scene, rays, Ask::any, brute_force);
+            const Hits hits = ask(*kernels, scene, rays, Query::closest, brute_force);
+            const Hits shadow = ask(*kernels, scene, rays, Query::any, brute_force);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const std::string place = name + ", ray " + std::to_string(i) + " of " + std::to_string(rays.size());
                 if (hits.slot[i] != truth.slot[i])
@@ -139,7 +76,7 @@ TEST_CASE("the tree finds what testing every primitive finds: scenes far from th
         const glm::dvec3 away = random.direction() * std::exp(random.uniform(-10, 10)) * (n % 2 == 0 ? 1.0 : 0.0);
         for (Object& object : scene.objects)
             if (!std::holds_alternative<Plane>(object.shape)) object.transformations.emplace_back(Translation{away});
-        check_scene(random, scaled_scene(scene, random.below(121) - 60), 4, tally);
+        check_scene(random, selftest::scaled_scene(scene, random.below(121) - 60), 4, tally);
     }
     CHECK(tally.hits > tally.rays / 20);
 }
@@ -199,8 +136,8 @@ TEST_CASE("spatial splits change no hit: random scenes and needles, rays aimed a
         for (int batch = 0; batch < 3; ++batch) {
             const Rays rays = random_rays(random, plain);
             REQUIRE(check_all(arrays, rays, tally) == "");
-            const Hits a = ask(scalar_kernels(), view(plain), rays, Ask::closest, true);
-            const Hits b = ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest);
+            const Hits a = ask(scalar_kernels(), view(plain), rays, Query::closest, true);
+            const Hits b = ask(*balanced_kernels().back(), view(arrays), rays, Query::closest);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 REQUIRE(bits_of(a.t[i]) == bits_of(b.t[i]));
                 REQUIRE((a.slot[i] < 0) == (b.slot[i] < 0));
@@ -226,7 +163,7 @@ TEST_CASE("coincident primitives: the smaller scene id is hit, whatever the tree
         for (int batch = 0; batch < 3; ++batch) {
             const Rays rays = random_rays(random, arrays);
             REQUIRE(check_all(arrays, rays, tally) == "");
-            const Hits hits = ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest);
+            const Hits hits = ask(*balanced_kernels().back(), view(arrays), rays, Query::closest);
             for (const std::int32_t slot : hits.slot)
                 if (slot >= 0) REQUIRE(arrays.object[static_cast<std::size_t>(slot)] < objects);
         }
@@ -254,7 +191,7 @@ TEST_CASE("rays that are not finite or have no direction miss, and change no oth
             if (kind == 4) spoilt.tmax[i] = random.chance(0.5) ? nan : -infinity;
         }
         for (const KernelTable* kernels : balanced_kernels())
-            for (const Ask what : {Ask::closest, Ask::any})
+            for (const Query what : {Query::closest, Query::any})
                 for (const bool brute_force : {false, true}) {
                     const Hits before = ask(*kernels, view(arrays), good, what, brute_force);
                     const Hits after = ask(*kernels, view(arrays), spoilt, what, brute_force);
@@ -265,7 +202,7 @@ TEST_CASE("rays that are not finite or have no direction miss, and change no oth
                         }
                         // any_hit may name another hit when packets change
                         REQUIRE((after.slot[i] >= 0) == (before.slot[i] >= 0));
-                        if (what == Ask::any) continue;
+                        if (what == Query::any) continue;
                         REQUIRE(after.slot[i] == before.slot[i]);
                         REQUIRE(bits_of(after.t[i]) == bits_of(before.t[i]));
                     }
@@ -293,7 +230,7 @@ TEST_CASE("a ray along a plane misses it, from either side and on it") {
                         for (const double zero : {0.0, -0.0}) d[axis] = zero, rays.add({0, -4, 0}, d);
                     }
                 for (const KernelTable* kernels : balanced_kernels()) {
-                    const Hits hits = ask(*kernels, view(arrays), rays, Ask::closest);
+                    const Hits hits = ask(*kernels, view(arrays), rays, Query::closest);
                     for (std::size_t i = 0; i < rays.size(); ++i) {
                         CHECK((hits.slot[i] < 0 || hits.t[i] < 1e30f));
                         if (hits.slot[i] >= 0) CHECK(static_cast<std::uint32_t>(hits.slot[i]) < arrays.first_slot[6]);
@@ -308,13 +245,13 @@ TEST_CASE("a ray's result does not depend on its batch: alone as in company") {
         const SceneArrays arrays = flatten(random_scene(random, 1 + random.below(60)), RenderSettings{}, 1);
         const Rays rays = random_rays(random, arrays);
         for (const KernelTable* kernels : balanced_kernels()) {
-            const Hits together = ask(*kernels, view(arrays), rays, Ask::closest);
+            const Hits together = ask(*kernels, view(arrays), rays, Query::closest);
             for (int k = 0; k < 20; ++k) {
                 const auto i = static_cast<std::size_t>(random.below(static_cast<int>(rays.size())));
                 Rays one;
-                one.add({rays.org[0][i], rays.org[1][i], rays.org[2][i]}, {rays.dir[0][i], rays.dir[1][i], rays.dir[2][i]},
-                        rays.tmin[i], rays.tmax[i]);
-                const Hits alone = ask(*kernels, view(arrays), one, Ask::closest);
+                one.add(rays.o(i), rays.d(i));
+                one.add_range(rays.tmin[i], rays.tmax[i]);
+                const Hits alone = ask(*kernels, view(arrays), one, Query::closest);
                 REQUIRE(alone.slot[0] == together.slot[i]);
                 REQUIRE(bits_of(alone.t[0]) == bits_of(together.t[i]));
             }
@@ -329,8 +266,8 @@ TEST_CASE("float agrees with the reference in double") {
         const SceneArrays arrays = flatten(random_scene(random, 1 + random.below(60)), RenderSettings{}, 1);
         Rays rays;
         for (int i = 0; i < 1000; ++i) rays.add(random.point(2), random.direction());
-        const Hits truth = ask(reference_kernels(), view(arrays), rays, Ask::closest);
-        const Hits hits = ask(*balanced_kernels().back(), view(arrays), rays, Ask::closest);
+        const Hits truth = ask(reference_kernels(), view(arrays), rays, Query::closest);
+        const Hits hits = ask(*balanced_kernels().back(), view(arrays), rays, Query::closest);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             ++rays_total;
             if (hits.slot[i] != truth.slot[i])

@@ -1,5 +1,6 @@
 // Records of every kind of primitive, and the numbering, against what the description says.
 
+#include "cli/selftest/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/geometry_support.hpp"
 #include "scene/normalise.hpp"
@@ -256,7 +257,7 @@ TEST_CASE("one warning for objects too small for the float grid: the smallest, a
         scene.objects.push_back(make_object(triangle_mesh({{glm::dvec3{-size, 0, -size}, {-size, 0, size}, {size, 0, size}}})));
         scene.objects.push_back(make_object(Sphere{0.5}, {Scale{{1, 2, 0.5}}})); // 2 across at its longest
         scene.objects[2].name = "floor";
-        scene = scaled_scene(scene, k);
+        scene = selftest::scaled_scene(scene, k);
         return flatten(scene, scene.render, 2).warnings;
     };
     const double limit = 0x1p17; // of the half size: beyond it the step of the grid doubles from 2^-7 to 2^-6

@@ -121,31 +121,6 @@ SceneDescription random_scene(Random& random, int size) {
     return scene;
 }
 
-SceneDescription scaled_scene(SceneDescription scene, int k) {
-    const double s = std::ldexp(1.0, k);
-    scene.camera.position *= s, scene.camera.look_at *= s, scene.camera.near *= s;
-    for (Object& object : scene.objects) {
-        if (auto* sphere = std::get_if<Sphere>(&object.shape)) sphere->radius *= s, sphere->position *= s;
-        if (auto* cylinder = std::get_if<Cylinder>(&object.shape)) cylinder->radius *= s, cylinder->height *= s;
-        if (auto* cone = std::get_if<Cone>(&object.shape)) cone->base_radius *= s, cone->apex_radius *= s, cone->height *= s;
-        if (auto* plane = std::get_if<Plane>(&object.shape)) plane->position *= s;
-        if (auto* mesh = std::get_if<Mesh>(&object.shape))
-            for (auto& p : mesh->positions) p *= s;
-        for (Transformation& t : object.transformations)
-            if (auto* translation = std::get_if<Translation>(&t)) translation->translate *= s;
-    }
-    for (Light& any : scene.lights)
-        std::visit(
-            [s](auto& light) {
-                if constexpr (requires { light.position; }) {
-                    light.position *= s, light.radius *= s;
-                    light.attenuation[1] /= s, light.attenuation[2] /= s * s;
-                }
-            },
-            any);
-    return scene;
-}
-
 Mesh needles(Random& random, int count) {
     std::vector<std::array<glm::dvec3, 3>> triangles;
     for (int i = 0; i < count; ++i) {

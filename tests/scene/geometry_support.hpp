@@ -30,9 +30,6 @@ struct Random {
 /// collinear, on a grid.
 [[nodiscard]] SceneDescription random_scene(Random& random, int size);
 
-/// Every length times 2^k: geometry, transformations, camera, lights, attenuation.
-[[nodiscard]] SceneDescription scaled_scene(SceneDescription scene, int k);
-
 /// Not inlined: g++ 12 warns of uninitialised strings where a variant's alternative is replaced in sight.
 [[nodiscard]] Object make_object(const Shape& shape, std::vector<Transformation> transformations = {});
 

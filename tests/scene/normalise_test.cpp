@@ -1,5 +1,6 @@
 // Centre and scale: exact, covariant under powers of two, sound at the extremes.
 
+#include "cli/selftest/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/geometry_support.hpp"
 #include "scene/normalise.hpp"
@@ -97,7 +98,7 @@ TEST_CASE("every length times 2^k gives the same bits") {
         scene.lights.emplace_back(SpotLight{{1, 2, 3}, random.point(4), random.direction(), 30, {0, 1, 0.5}, 0});
         const SceneArrays arrays = flatten(scene, scene.render, 1);
         for (const int k : {-60, -20 - random.below(40), -1, 1, 7, random.below(60), 60}) {
-            const SceneArrays scaled = flatten(scaled_scene(scene, k), scene.render, 1);
+            const SceneArrays scaled = flatten(selftest::scaled_scene(scene, k), scene.render, 1);
             INFO("scene " << i << ", 2^" << k);
             REQUIRE(difference(arrays, scaled) == "");
             REQUIRE(scaled.normalisation.scale == std::ldexp(arrays.normalisation.scale, -k));

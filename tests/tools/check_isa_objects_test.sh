@@ -47,6 +47,8 @@ expect "forbidden instructions" "avx2 fused.o"
 expect "symbol outside lanecast::avx2_fast" "avx2_fast fused.o"
 compile fused_fast.o -mavx2 -mfma -ffp-contract=fast <<<'namespace lanecast::inline avx2_fast { float f(float a, float b, float c) { return a * b + c; } }'
 expect "" "avx2_fast fused_fast.o"
+compile fused_precise.o -mavx2 -mfma -ffp-contract=fast <<<'namespace lanecast::inline avx2_precise { float f(float a, float b, float c) { return a * b + c; } }'
+expect "forbidden instructions" "avx2_precise fused_precise.o"
 compile fused512.o -mavx512f -mfma -ffp-contract=fast <<<'namespace lanecast::inline avx512 { float f(float a, float b, float c) { return a * b + c; } }'
 expect "forbidden instructions" "avx512 fused512.o"
 compile wide.o -mavx512f -mavx512vl -O3 -mprefer-vector-width=512 <<<'namespace lanecast::inline avx2 {
@@ -55,6 +57,11 @@ expect "forbidden instructions" "avx2 wide.o"
 compile wide_fast.o -mavx512f -mavx512vl -O3 -mprefer-vector-width=512 <<<'namespace lanecast::inline avx2_fast {
     void f(float* a) { for (int i = 0; i < 64; ++i) a[i] *= 2; } }'
 expect "forbidden instructions" "avx2_fast wide_fast.o"
+compile wide_precise.o -mavx512f -mavx512vl -O3 -mprefer-vector-width=512 <<<'namespace lanecast::inline avx2_precise {
+    void f(double* a) { for (int i = 0; i < 64; ++i) a[i] *= 2; } }'
+expect "forbidden instructions" "avx2_precise wide_precise.o"
+compile narrow_precise.o -mavx2 -O3 <<<'namespace lanecast::inline sse42_precise { void f(double* a) { for (int i = 0; i < 64; ++i) a[i] *= 2; } }'
+expect "forbidden instructions" "sse42_precise narrow_precise.o"
 compile sse4.o -msse4.2 <<<'namespace lanecast::inline scalar { int f(unsigned a) { return __builtin_popcount(a); } }'
 expect "forbidden instructions" "scalar sse4.o"
 compile bmi.o -mbmi2 <<<'namespace lanecast::inline sse42 { unsigned f(unsigned a, unsigned b) { return a << b; } }'
@@ -73,7 +80,9 @@ library='namespace xsimd { template <class T> __attribute__((noinline)) T shared
 compile library_avx2.o -mavx2 <<<"$library namespace lanecast::inline avx2 { float f(float a) { return xsimd::shared(a); } }"
 compile library_fast.o -mavx2 <<<"$library namespace lanecast::inline avx2_fast { float f(float a) { return xsimd::shared(a); } }"
 compile library_sse42.o -msse4.2 <<<"$library namespace lanecast::inline sse42 { float f(float a) { return xsimd::shared(a); } }"
-expect "" "avx2 library_avx2.o" "avx2_fast library_fast.o"
+compile library_precise.o -mavx2 <<<"$library namespace lanecast::inline avx2_precise { float f(float a) { return xsimd::shared(a); } }"
+expect "" "avx2 library_avx2.o" "avx2_fast library_fast.o" "avx2_precise library_precise.o"
+expect "shared by avx2 sse42: float xsimd::shared<float>(float)" "avx2_precise library_precise.o" "sse42 library_sse42.o"
 expect "shared by avx2 sse42: float xsimd::shared<float>(float)" "avx2 library_avx2.o" "avx2_fast library_fast.o" "sse42 library_sse42.o"
 compile global.o <<<'void global() {}'
 expect "symbol outside lanecast::avx2: global()" "avx2 global.o"

@@ -1,6 +1,6 @@
 #include "cli/measure/budget_options.hpp"
 
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "cli/print.hpp"
 #include "scene/text_tools.hpp"
 
@@ -33,12 +33,9 @@ constexpr KeySpec time_key{.name = "time", .range = {.low = 0, .high = 1e9, .low
 void add_budget_options(CLI::App& command, Budget& budget) {
     constexpr const char* group = "Budgets (settings that are not given are picked)";
     CLI::Option* const error =
-        command
-            .add_option_function<std::string>(
-                "--max-error",
-                [&budget](const std::string& text) { budget.max_error = parse_number("--max-error", text, error_key); },
-                "Pick the fastest settings that keep the error of linear RGB below X, by trials on some tiles")
-            ->type_name("X")
+        add_number_option(command, "--max-error",
+                          "Pick the fastest settings that keep the error of linear RGB below X, by trials on some tiles",
+                          error_key, [&budget](double value) { budget.max_error = value; })
             ->group(group);
     command
         .add_option_function<std::string>(
@@ -53,11 +50,8 @@ void add_budget_options(CLI::App& command, Budget& budget) {
         ->type_name("rmse|max|flip")
         ->needs(error)
         ->group(group);
-    command
-        .add_option_function<std::string>(
-            "--max-time", [&budget](const std::string& text) { budget.max_seconds = parse_number("--max-time", text, time_key); },
-            "Pick the settings with the least error whose frame takes at most X seconds")
-        ->type_name("X")
+    add_number_option(command, "--max-time", "Pick the settings with the least error whose frame takes at most X seconds",
+                      time_key, [&budget](double value) { budget.max_seconds = value; })
         ->group(group)
         ->excludes(error);
 }

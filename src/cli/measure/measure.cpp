@@ -6,7 +6,7 @@
 #include "cli/machine.hpp"
 #include "cli/measure/budget_options.hpp"
 #include "cli/measure/report.hpp"
-#include "cli/parse_value.hpp"
+#include "cli/number_option.hpp"
 #include "cli/print.hpp"
 #include "render/dispatch.hpp"
 #include "render/output_file.hpp"
@@ -98,14 +98,6 @@ int measure(const MeasureRequest& request) {
     return static_cast<int>(ExitCode::done);
 }
 
-template <class Set>
-CLI::Option* add_count(CLI::App& command, const std::string& name, const char* help, const KeySpec& key, const Set& set) {
-    return command
-        .add_option_function<std::string>(
-            name, [name, &key, set](const std::string& text) { set(parse_number(name, text, key)); }, help)
-        ->type_name("N");
-}
-
 } // namespace
 
 void add_measure(CLI::App& app, Command& chosen) {
@@ -115,15 +107,16 @@ void add_measure(CLI::App& app, Command& chosen) {
     add_scene_options(*command, r.frame);
     CLI::Option* const quick =
         command->add_flag("--quick", r.quick, "As many tiles, spread over the frame, as can be measured in about a minute");
-    add_count(*command, "--tiles", "Only N tiles of 32x32 pixels, spread over the frame", tiles_key, [&r](double v) {
+    add_number_option(*command, "--tiles", "Only N tiles of 32x32 pixels, spread over the frame", tiles_key, [&r](double v) {
         r.experiment.tiles = static_cast<std::size_t>(v);
     })->excludes(quick);
-    add_count(*command, "--repetitions", "Of which the median time counts; default 5, with --quick at most", repetitions_key,
-              [&r](double v) { r.experiment.repetitions = static_cast<int>(v); });
-    add_count(*command, "--reference-samples", "Per side of a pixel of the reference picture; default 16, with --quick 11",
-              samples_key, [&r](double v) { r.reference_samples = static_cast<int>(v); });
-    add_count(*command, "--rays", "Camera rays that are compared one by one; default 262144", rays_key,
-              [&r](double v) { r.experiment.rays = static_cast<std::size_t>(v); });
+    add_number_option(*command, "--repetitions", "Of which the median time counts; default 5, with --quick at most",
+                      repetitions_key, [&r](double v) { r.experiment.repetitions = static_cast<int>(v); });
+    add_number_option(*command, "--reference-samples",
+                      "Per side of a pixel of the reference picture; default 16, with --quick 11", samples_key,
+                      [&r](double v) { r.reference_samples = static_cast<int>(v); });
+    add_number_option(*command, "--rays", "Camera rays that are compared one by one; default 262144", rays_key,
+                      [&r](double v) { r.experiment.rays = static_cast<std::size_t>(v); });
     command->add_option("--json", r.json, "Write everything as JSON")->type_name("FILE");
     command->add_option("--html", r.html, "Write tables and plot as a page that needs no other file")->type_name("FILE");
     command->add_option("--plot", r.plots, "Write the plot of error against time: SVG, or PNG by its ending")

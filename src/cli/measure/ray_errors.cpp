@@ -154,7 +154,7 @@ RayLists collect_rays(const Bench& bench, const RenderSettings& settings, std::s
 
 std::vector<RayErrors> ray_errors(const Bench& bench, const RayLists& lists, const KernelTable& kernels,
                                   const std::string& precision) {
-    const KernelTable& reference = find_kernels("auto", Precision::reference);
+    const KernelTable& reference = truth_kernels();
     const SceneView scene = view(*bench.scene);
     std::vector<RayErrors> rows;
     for (int k = 0; k < ray_class_count; ++k) {

@@ -86,8 +86,8 @@ PictureError error_of(const std::vector<Film>& films, const ReferencePicture& re
 }
 
 RenderedSample render(const Bench& bench, const RenderSettings& settings) {
-    const bool reference = settings.precision == Precision::reference;
-    const KernelTable& kernels = find_kernels(reference ? "auto" : bench.isa, settings.precision);
+    const KernelTable& kernels =
+        settings.precision == Precision::reference ? truth_kernels() : find_kernels(bench.isa, settings.precision);
     RenderedSample rendered = render_sample(kernels, *bench.scene, *bench.camera, settings, bench.options, bench.sample);
     for (Film& film : rendered.films) scrub(film);
     return rendered;

@@ -3,6 +3,7 @@
 #include "cli/selftest/cases.hpp"
 #include "cli/selftest/leaf_tree.hpp"
 #include "cli/selftest/scenes.hpp"
+#include "render/dispatch.hpp"
 #include "scene/flatten.hpp"
 
 #include <algorithm>
@@ -17,13 +18,14 @@ SceneArrays make_scene(const Setting& s, int count, Random& random) {
     return with_leaves_of(flatten(description, RenderSettings{}, 1), s.leaf_size);
 }
 
-/// Pieces, so that a block meets rays of several kinds.
+/// Runs `attempt(rays)` on the block's rays in pieces, so that it meets several kinds.
 template <class Try>
-void for_each_piece(const Block& block, Try&& attempt) {
+void for_each_piece(const Block& block, const SceneArrays& scene, double farthest, Random& random, Tally& tally, Try&& attempt) {
     constexpr std::uint64_t pieces = 4;
     for (std::uint64_t i = 0; i < pieces; ++i) {
         const std::uint64_t count = block.rays / pieces + (i < block.rays % pieces ? 1 : 0);
-        if (count > 0) attempt(count);
+        if (count > 0) attempt(random_rays(scene, count, farthest, random));
+        tally.rays += count;
     }
 }
 
@@ -33,17 +35,12 @@ bool same(const Hits& a, std::size_t i, const Hits& b, std::size_t k) {
     return a.slot[i] == b.slot[k] && bits_of(a.t[i]) == bits_of(b.t[k]);
 }
 
-} // namespace
-
-namespace {
-
 void compare_with_brute_force(const Block& block, double farthest, Tally& tally) {
     Random random(block.seed);
     const Setting& s = block.setting;
     const SceneArrays scene = make_scene(s, 4 + random.below(24), random);
     const SceneView view = lanecast::view(scene);
-    for_each_piece(block, [&](std::uint64_t count) {
-        Rays rays = random_rays(scene, count, farthest, random);
+    for_each_piece(block, scene, farthest, random, tally, [&](Rays rays) {
         if (s.path == Path::mixed) shuffle(rays, random.bits());
         const Hits tree = ask(*s.kernels, view, rays, s.path);
         const Hits all = ask(*s.kernels, view, rays, Path::batch, Query::closest, true);
@@ -54,23 +51,15 @@ void compare_with_brute_force(const Block& block, double farthest, Tally& tally)
             else if ((any.slot[i] >= 0) != (tree.slot[i] >= 0))
                 tally.fail(place(i, "any_hit differs from closest_hit"));
         }
-        tally.rays += rays.size();
     });
 }
-
-} // namespace
-
-void test_tree_is_brute_force(const Block& block, Tally& tally) { compare_with_brute_force(block, 100, tally); }
-void test_tree_from_afar(const Block& block, Tally& tally) { compare_with_brute_force(block, 1e6, tally); }
-
-namespace {
 
 /// One of those whose bits must be the same; scalar once in 16 times, for it is slow.
 const KernelTable& partner_of(const Block& block, Random& random) {
     const KernelTable& own = *block.setting.kernels;
     std::vector<const KernelTable*> partners;
     for (const KernelTable* other : block.kernels)
-        if (other != &own && other->precision == own.precision) partners.push_back(other);
+        if (other != &own && same_numbers(other->precision, own.precision)) partners.push_back(other);
     if (partners.empty()) return own;
     if (partners.front()->width > 1 || random.chance(1.0 / 16) || partners.size() == 1) return *partners.front();
     return *partners[1 + random.bits() % (partners.size() - 1)];
@@ -102,18 +91,13 @@ bool in_pieces(const KernelTable& kernels, const SceneView& scene, const Rays& r
     return intact;
 }
 
-} // namespace
-
-namespace {
-
 void compare_company(const Block& block, double farthest, Tally& tally) {
     Random random(block.seed);
     const Setting& s = block.setting;
     const SceneArrays scene = make_scene(s, 8 + random.below(100), random);
     const SceneView view = lanecast::view(scene);
     const KernelTable& partner = partner_of(block, random);
-    for_each_piece(block, [&](std::uint64_t count) {
-        const Rays rays = random_rays(scene, count, farthest, random);
+    for_each_piece(block, scene, farthest, random, tally, [&](const Rays& rays) {
         const Hits first = ask(*s.kernels, view, rays, s.path);
         Rays mixed = rays;
         const std::vector<std::uint32_t> from = shuffle(mixed, random.bits());
@@ -123,12 +107,13 @@ void compare_company(const Block& block, double farthest, Tally& tally) {
             if (!same(first, from[i], other, i))
                 tally.fail(place(from[i], "another hit in other company, on ") + std::string(partner.isa));
         if (!intact) tally.fail("something was written behind the last ray, on " + std::string(partner.isa));
-        tally.rays += rays.size();
     });
 }
 
 } // namespace
 
+void test_tree_is_brute_force(const Block& block, Tally& tally) { compare_with_brute_force(block, 100, tally); }
+void test_tree_from_afar(const Block& block, Tally& tally) { compare_with_brute_force(block, 1e6, tally); }
 void test_lanes(const Block& block, Tally& tally) { compare_company(block, 100, tally); }
 void test_lanes_from_afar(const Block& block, Tally& tally) { compare_company(block, 1e6, tally); }
 

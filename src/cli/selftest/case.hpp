@@ -51,8 +51,9 @@ struct Tally {
     std::map<int, std::uint64_t> errors;
     std::string example;
 
-    void fail(const std::string& what) {
-        if (failures++ == 0) example = what;
+    void fail(const std::string& what, std::uint64_t count = 1) {
+        if (failures == 0) example = what;
+        failures += count;
     }
     void add_error(double error);
     /// The upper end of the class in which that share of the errors is reached; 0: there are none.

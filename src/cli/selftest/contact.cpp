@@ -86,10 +86,8 @@ double offset_bound(PrimitiveKind kind, const glm::dvec3& place) {
 } // namespace
 
 void test_contact(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         const glm::dvec3 away = random.point(s.placing == Placing::translated ? 30 : 0.3);
         const std::vector<Transformation> turn{Rotation{random.direction(), random.uniform(0, 360)}, Translation{away}};
         const glm::dvec3 look_at(random.uniform(-0.2, 0.2), 0, random.uniform(-0.2, 0.2)), up = random.direction();
@@ -102,12 +100,9 @@ void test_contact(const Block& block, Tally& tally) {
         const Picture picture = render(*s.kernels, arrays, scene.camera, RenderSettings{}, edge, edge);
         std::uint64_t lost = 0;
         for (const float value : picture.film.rgb[0]) lost += value == 1.0f ? 0 : 1;
-        if (lost > 0) {
-            tally.fail("a gap of " + std::to_string(gap * 1e6) + "e-6 is not seen");
-            tally.failures += lost - 1;
-        }
-        tally.rays += edge * edge;
-    }
+        if (lost > 0) tally.fail("a gap of " + std::to_string(gap * 1e6) + "e-6 is not seen", lost);
+        return std::uint64_t{edge * edge};
+    });
 }
 
 } // namespace lanecast::selftest

@@ -13,10 +13,8 @@
 namespace lanecast::selftest {
 
 void test_scaled_scene(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         const SceneDescription scene = random_lit_scene(s.primitive, s.placing, 4 + random.below(20), random);
         const SceneArrays arrays = with_leaves_of(flatten(scene, RenderSettings{}, 1), s.leaf_size);
         const Picture picture = render(*s.kernels, arrays, scene.camera, RenderSettings{}, 48, 32);
@@ -25,20 +23,16 @@ void test_scaled_scene(const Block& block, Tally& tally) {
         const SceneArrays scaled_arrays = with_leaves_of(flatten(scaled, RenderSettings{}, 1), s.leaf_size);
         const Picture other = render(*s.kernels, scaled_arrays, scaled.camera, RenderSettings{}, 48, 32);
         std::size_t first = 0;
-        if (const std::uint64_t wrong = differing_pixels(picture.film, other.film, first); wrong > 0) {
-            tally.fail("k = " + std::to_string(k) + ", pixel " + std::to_string(first));
-            tally.failures += wrong - 1;
-        }
-        tally.rays += picture.rays() + other.rays();
-    }
+        if (const std::uint64_t wrong = differing_pixels(picture.film, other.film, first); wrong > 0)
+            tally.fail("k = " + std::to_string(k) + ", pixel " + std::to_string(first), wrong);
+        return picture.rays() + other.rays();
+    });
 }
 
 /// Threads, tile sizes and crops.
 void test_threads(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         const SceneDescription scene = random_lit_scene(s.primitive, s.placing, 4 + random.below(20), random);
         RenderSettings settings;
         if (random.chance(0.5)) {
@@ -64,8 +58,8 @@ void test_threads(const Block& block, Tally& tally) {
                         tally.fail("pixel " + std::to_string(image_x) + ", " + std::to_string(image_y) + " with " +
                                    std::to_string(options.threads) + " threads, tiles of " + std::to_string(options.tile_size));
                 }
-        tally.rays += ray_count(whole.stats.tiles) + ray_count(part.stats.tiles);
-    }
+        return ray_count(whole.stats.tiles) + ray_count(part.stats.tiles);
+    });
 }
 
 namespace {

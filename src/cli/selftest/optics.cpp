@@ -35,10 +35,8 @@ constexpr int edge = 48; ///< of pictures, in pixels
 
 /// Ambient light on white surfaces, and mirrors, are white.
 void test_furnace(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         SceneDescription scene = white_scene(s, random);
         for (Object& object : scene.objects) {
             object.material = Material{};
@@ -53,16 +51,14 @@ void test_furnace(const Block& block, Tally& tally) {
         const Picture picture = render(*s.kernels, arrays, scene.camera, settings, edge, edge);
         for (const auto& plane : picture.film.rgb)
             for (const float value : plane) tally.add_error(ulps(value, 1));
-        tally.rays += picture.rays();
-    }
+        return picture.rays();
+    });
 }
 
 /// Glass that mirrors what it does not let through gives no light of its own.
 void test_glass_furnace(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         SceneDescription scene = white_scene(s, random);
         for (Object& object : scene.objects) {
             object.material = Material{};
@@ -81,8 +77,8 @@ void test_glass_furnace(const Block& block, Tally& tally) {
                 tally.worst = std::max(tally.worst, double{value} - 1);
                 if (!(value >= 0.0f && value <= 1.000001f)) tally.fail("a pixel is " + std::to_string(value));
             }
-        tally.rays += picture.rays();
-    }
+        return picture.rays();
+    });
 }
 
 namespace {
@@ -113,10 +109,6 @@ int face_of(const TraceRecord& record) {
         if (std::fabs(record.normal[k]) > std::fabs(record.normal[axis])) axis = k;
     return 2 * axis + (record.normal[axis] < 0 ? 0 : 1);
 }
-
-} // namespace
-
-namespace {
 
 /// The rays of single pixels; memory is kept from pixel to pixel, most of which a path of 1000 levels touches.
 class PathTracer {
@@ -222,9 +214,7 @@ Fresnel schlick(double n1, double n2, double cosine) {
 
 /// A glass plane that mirrors a white sky, from either side: each pixel is the share that is mirrored.
 void test_fresnel(const Block& block, Tally& tally) {
-    Random random(block.seed);
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         SceneDescription scene;
         Material glass;
         glass.reflective = glm::dvec3(1);
@@ -274,8 +264,8 @@ void test_fresnel(const Block& block, Tally& tally) {
         for (std::size_t i = 1; i < angles.size(); ++i)
             if (double{angles[i].found} > double{angles[i - 1].found} + angles[i].exact.slack + angles[i - 1].exact.slack)
                 tally.fail("the share grows with a steeper angle at cosine " + std::to_string(angles[i].cosine));
-        tally.rays += picture.rays();
-    }
+        return picture.rays();
+    });
 }
 
 } // namespace lanecast::selftest

@@ -169,10 +169,6 @@ void score_cylinder(const Block& block, const SceneArrays& scene, Rays& rays, bo
     }
 }
 
-} // namespace
-
-namespace {
-
 void aim_at_cylinder(const Block& block, bool rounding, Tally& tally) {
     Random random(block.seed);
     const double ratio = random.magnitude(1e-3, 1e3);

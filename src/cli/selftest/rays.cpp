@@ -8,7 +8,7 @@
 namespace lanecast::selftest {
 
 Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, Path path, Query query, bool brute_force) {
-    Hits hits{std::vector<float>(rays.size()), std::vector<std::int32_t>(rays.size(), -7)};
+    Hits hits{std::vector<float>(rays.size(), -7.0f), std::vector<std::int32_t>(rays.size(), -7)};
     const std::size_t piece = path == Path::single ? 1 : rays.size();
     const auto call = query == Query::closest ? kernels.closest_hit : kernels.any_hit;
     for (std::size_t begin = 0; begin < rays.size(); begin += piece) {

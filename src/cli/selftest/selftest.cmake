@@ -34,7 +34,7 @@ add_library(lanecast_selftest STATIC
 target_link_libraries(lanecast_selftest PRIVATE lanecast::lanecast lanecast_flags)
 target_include_directories(lanecast_selftest PRIVATE ${CMAKE_BINARY_DIR}/generated) # kernel_list.inc
 # What the compiler must do, compiled with the flags of each set of kernels.
-foreach(isa IN LISTS lanecast_isas lanecast_fast_isas)
+foreach(isa IN LISTS lanecast_isas lanecast_fast_isas lanecast_precise_isas)
   add_library(lanecast_canaries_${isa} OBJECT cli/selftest/canary_subjects.cpp)
   lanecast_isa_flags(lanecast_canaries_${isa} ${isa})
   target_include_directories(lanecast_canaries_${isa} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

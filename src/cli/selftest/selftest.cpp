@@ -41,17 +41,10 @@ std::vector<const KernelTable*> chosen_kernels(const SelftestRequest& request) {
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
-    std::vector<Precision> precisions{Precision::reference, Precision::balanced, Precision::fast};
     for (const std::string& name : request.precisions) static_cast<void>(precision_named(name));
-    for (const IsaInfo& isa : known_isas()) {
-        if (!isa.compiled || !isa.supported || !wanted(request.isas, isa.name)) continue;
-        for (const Precision precision : precisions) {
-            if (!wanted(request.precisions, lanecast::name_of(precision))) continue;
-            if (precision == Precision::reference && isa.name != "scalar") continue;
-            if (precision == Precision::fast && !isa.fast) continue;
-            tables.push_back(&find_kernels(isa.name, precision));
-        }
-    }
+    for (const KernelTable* table : usable_kernels())
+        if (wanted(request.isas, table->isa) && wanted(request.precisions, lanecast::name_of(table->precision)))
+            tables.push_back(table);
     if (tables.empty()) throw Error(ExitCode::usage, "selftest: there are no kernels of that instruction set and precision");
     return tables;
 }

@@ -85,10 +85,8 @@ SceneArrays flat(const BodyScene& body, const Setting& s) {
 /// With shadows and without them a convex body alone looks the same. Lights stand all around it, so that at every point some
 /// graze the surface.
 void test_self_shadow(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         BodyScene body = make_body(s, random);
         for (int i = 0; i < 16; ++i) {
             const glm::dvec3 color(1 + i, 1, 1);
@@ -110,20 +108,16 @@ void test_self_shadow(const Block& block, Tally& tally) {
         const Picture without = render(*s.kernels, scene, body.description.camera, settings, edge, edge);
         const std::uint64_t shadow = with.stats.kinds[static_cast<int>(RayKind::shadow)].rays;
         std::size_t first = 0;
-        if (const std::uint64_t wrong = differing_pixels(with.film, without.film, first); wrong > 0) {
-            tally.fail("pixel " + std::to_string(first % edge) + ", " + std::to_string(first / edge) + " shadows itself");
-            tally.failures += wrong - 1;
-        }
-        tally.rays += std::max<std::uint64_t>(shadow, 1);
-    }
+        if (const std::uint64_t wrong = differing_pixels(with.film, without.film, first); wrong > 0)
+            tally.fail("pixel " + std::to_string(first % edge) + ", " + std::to_string(first / edge) + " shadows itself", wrong);
+        return std::max<std::uint64_t>(shadow, 1);
+    });
 }
 
 /// A reflection off a convex mirror alone is never reflected again: a picture of two levels needs as many as one of a single one.
 void test_self_reflection(const Block& block, Tally& tally) {
-    Random random(block.seed);
     const Setting& s = block.setting;
-    const std::uint64_t end = tally.rays + block.rays;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         BodyScene body = make_body(s, random);
         body.description.objects[0].material = Material{};
         body.description.objects[0].material.reflective = glm::dvec3(1);
@@ -135,12 +129,10 @@ void test_self_reflection(const Block& block, Tally& tally) {
         settings.depth = 1;
         const Picture once = render(*s.kernels, scene, body.description.camera, settings, edge, edge);
         const std::uint64_t first_level = once.stats.kinds[static_cast<int>(RayKind::reflection)].rays;
-        if (reflected > first_level) {
-            tally.fail(std::to_string(reflected - first_level) + " reflections met the mirror again");
-            tally.failures += reflected - first_level - 1;
-        }
-        tally.rays += std::max<std::uint64_t>(first_level, 1);
-    }
+        if (reflected > first_level)
+            tally.fail(std::to_string(reflected - first_level) + " reflections met the mirror again", reflected - first_level);
+        return std::max<std::uint64_t>(first_level, 1);
+    });
 }
 
 } // namespace lanecast::selftest

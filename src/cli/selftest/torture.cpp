@@ -88,13 +88,11 @@ double processor_seconds() {
 
 /// A message or a picture without a NaN; a crash would end the program.
 void test_torture(const Block& block, Tally& tally) {
-    Random random(block.seed);
-    const std::uint64_t end = tally.rays + block.rays;
     RenderSettings settings;
     settings.depth = 4;
-    while (tally.rays < end) {
+    for_each_picture(block, tally, [&](Random& random) {
         const std::string text = torture_scene(random);
-        tally.rays += 1;
+        std::uint64_t rays = 1; // the text
         try {
             const LoadedScene loaded = parse_scene(text, "torture", ".");
             const SceneArrays scene = flatten(loaded.description, settings, 1);
@@ -104,11 +102,12 @@ void test_torture(const Block& block, Tally& tally) {
                 bad +=
                     static_cast<std::uint64_t>(std::count_if(plane.begin(), plane.end(), [](float x) { return std::isnan(x); }));
             if (bad > 0) tally.fail("NaN in the picture of " + text);
-            tally.rays += picture.rays();
+            rays += picture.rays();
         } catch (const Error& error) {
             if (*error.what() == 0) tally.fail("no message for " + text);
         }
-    }
+        return rays;
+    });
 }
 
 namespace {

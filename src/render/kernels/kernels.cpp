@@ -9,7 +9,10 @@ namespace {
 
 using Float = NativeFloat;
 
-constexpr Precision precision = LANECAST_REFERENCE ? Precision::reference : LANECAST_FAST ? Precision::fast : Precision::balanced;
+constexpr Precision precision = LANECAST_REFERENCE ? Precision::reference
+                                : LANECAST_PRECISE ? Precision::precise
+                                : LANECAST_FAST    ? Precision::fast
+                                                   : Precision::balanced;
 
 std::uint64_t scratch_bytes(const RenderJob& job) noexcept {
     TileScratch<Float> scratch;

@@ -9,7 +9,7 @@ namespace lanecast::inline LANECAST_ISA {
 /// the tests of a packet cost by the vector. Measured: docs/performance.md.
 inline constexpr std::uint32_t few_rays = 16;
 template <FloatBatch F>
-inline constexpr std::uint32_t few_per_vector = width<F> < 8 ? 2 : width<F> / 4;
+inline constexpr std::uint32_t few_per_vector = width<F> < 8 ? (width<F> + 1) / 2 : width<F> / 4;
 
 /// The rays of a packet that enter a subtree.
 struct Entering {
