@@ -19,6 +19,12 @@ std::string cell(const Tally& tally) {
     return text;
 }
 
+/// Of a unit such as |T|, in a cell.
+std::string escaped(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+    return text;
+}
+
 } // namespace
 
 std::string comparison_header(const std::vector<Contender>& contenders) {
@@ -33,7 +39,7 @@ std::string comparison_header(const std::vector<Contender>& contenders) {
 std::string comparison_row(const std::vector<Progress>& results) {
     const Progress& first = results.front();
     std::string text = "| " + name_of(*first.c) + " | " + short_count(static_cast<double>(first.tally.rays)) + " | " +
-                       text_of(first.c->target) + " |";
+                       escaped(text_of(first.c->target)) + " |";
     for (const Progress& result : results) text += " " + cell(result.tally) + " |";
     return text + "\n";
 }
