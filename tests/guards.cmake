@@ -16,6 +16,7 @@ if(LANECAST_PYTHON)
   lanecast_script_test(check_includes_self_test ${LANECAST_PYTHON} tests/tools/check_includes_test.py)
   lanecast_script_test(make_meshes_self_test ${LANECAST_PYTHON} tests/tools/make_meshes_test.py)
   lanecast_script_test(spd_nff ${LANECAST_PYTHON} tests/tools/spd_nff_test.py)
+  lanecast_script_test(povray_self_test ${LANECAST_PYTHON} tests/tools/povray_test.py)
 endif()
 lanecast_script_test(check_isa_objects tools/check_isa_objects.sh ${CMAKE_BINARY_DIR}/isa_objects.txt)
 lanecast_script_test(check_isa_objects_self_test

@@ -22,7 +22,7 @@ constexpr const char* exit_codes = R"(Exit codes:
   4    a mesh or a picture cannot be read or is not valid
   5    an output cannot be written
   6    not enough memory
-  7    this CPU or this build lacks the instruction set
+  7    this CPU or this build lacks the instruction set, or the peer of selftest
   130  interrupted (Ctrl-C); 143 by SIGTERM: no picture was written or changed
 )";
 

@@ -73,7 +73,7 @@ bool read_some(int fd, std::string& text) {
 } // namespace
 
 Outcome run(const std::vector<std::string>& arguments, const RunOptions& options) {
-    std::vector<std::string> words{LANECAST_PROGRAM};
+    std::vector<std::string> words{options.program.empty() ? LANECAST_PROGRAM : options.program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

@@ -10,6 +10,7 @@
 namespace lanecast::test {
 
 struct RunOptions {
+    std::filesystem::path program{};        ///< a copy of it; empty: where it was built
     std::filesystem::path directory = ".";  ///< it runs there
     std::vector<std::string> environment{}; ///< NAME=value, beside what the test has
     std::string out_file{};                 ///< its standard output; empty: Outcome::out

@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <doctest/doctest.h>
 
@@ -68,4 +69,49 @@ TEST_CASE("Ctrl-C ends it at once, and its state is kept") {
     CHECK(outcome.code == 130);
     CHECK(has(outcome.err, "--resume state"));
     CHECK(has(contents(directory.path / "state"), "lanecast selftest state"));
+}
+
+#ifndef LANECAST_SANITIZED // neither Embree nor its threads are built for sanitizers
+TEST_CASE("beside a peer: a column each, and nobody is judged") {
+    const TemporaryDirectory directory;
+    const std::vector<std::string> arguments{"selftest", "--peer", "embree", "--only",  "N2,N3,N10",
+                                             "--rays",   "60000",  "--json", "out.json"};
+    const Outcome outcome = run(arguments, {.directory = directory.path, .seconds = 120});
+    if (outcome.code == 7) { // a build without Embree or vectors
+        CHECK(has(outcome.err, "--peer: "));
+        return;
+    }
+    CHECK(outcome.code == 0);
+    for (const char* const word : {"| Lanecast balanced |", " default |", " robust |", "| N2 vertices |", "| N10 far |"})
+        CHECK_MESSAGE(has(outcome.out, word), word);
+    CHECK(!has(outcome.out, "MISSED"));
+    const std::string json = contents(directory.path / "out.json");
+    CHECK(has(json, "\"name\": \"Lanecast balanced\""));
+    CHECK(has(json, "\"name\": \"Embree "));
+    // N3: a peer that got another scene, or whose hits were called other objects, would be wrong about many rays
+    const std::size_t row = outcome.out.find("| N3 streams |");
+    std::vector<std::string> cells;
+    std::istringstream line(outcome.out.substr(row, outcome.out.find('\n', row) - row));
+    for (std::string cell; std::getline(line, cell, '|');) cells.push_back(cell);
+    REQUIRE(cells.size() >= 7); // one of ours at least
+    for (std::size_t i = 4; i < cells.size(); ++i) CHECK_MESSAGE(std::stod(cells[i]) < 2e-4, cells[i]);
+}
+#endif
+
+TEST_CASE("a peer that is not there, and what is not compared with one") {
+    const TemporaryDirectory directory;
+    const std::filesystem::path lone = directory.path / "lanecast"; // the module is looked for beside the program
+    std::filesystem::copy_file(LANECAST_PROGRAM_FILE, lone);
+    const Outcome outcome = run({"selftest", "--peer", "embree", "--only", "N2"}, {.program = lone});
+    CHECK(outcome.code == 7);
+    CHECK(has(outcome.err, "this build has no Embree"));
+    CHECK(outcome.out.empty());
+    CHECK(run({"selftest", "--peer", "teapot"}).code == 2);
+    CHECK(run({"selftest", "--peer", "embree", "--resume", "state"}).code == 2);
+    CHECK(run({"selftest", "--peer", "embree", "--isa", "scalar,avx2"}).code == 2);
+    CHECK(run({"selftest", "--peer", "embree", "--isa", "scalar"}).code == 7); // Embree has none
+    const Outcome list = run({"selftest", "--peer", "embree", "--list"});
+    CHECK(list.code == 0);
+    CHECK(has(list.out, "N8 streams"));
+    CHECK(!has(list.out, "N1 edges"));
 }

@@ -2,6 +2,7 @@
 // result.
 
 #include "cli/selftest/leaf_tree.hpp"
+#include "cli/selftest/peer.hpp"
 #include "cli/selftest/report.hpp"
 #include "cli/selftest/run.hpp"
 #include "cli/selftest/scenes.hpp"
@@ -12,6 +13,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -227,4 +229,27 @@ TEST_CASE("a tree with leaves of a given size has them, and every primitive once
                           arrays.scene_id[static_cast<std::size_t>(b.slot[i])]);
             }
         }
+}
+
+TEST_CASE("what peers are asked: known cases over what they have, in streams; ours holds those about streams alone") {
+    const std::vector<const KernelTable*> kernels{&find_kernels("auto", Precision::balanced)};
+    std::set<std::string> names;
+    for (const Case& c : peer_cases()) {
+        CHECK(names.insert(selftest::name_of(c)).second);
+        CHECK(c.scope.primitives != 0);
+        CHECK((c.scope.primitives & (only(PrimitiveKind::open_cone) | only(PrimitiveKind::plane))) == 0);
+        CHECK((c.scope.paths & only(Path::single)) == 0);
+        CHECK(!c.scope.leaf_sizes);
+    }
+    CHECK(names.size() == 23); // a name that all_cases() does not know would be missing
+    for (const char* const name : {"N3 streams", "N5 streams, to 2^20", "N5 streams, to 2^36"}) {
+        const auto& cases = peer_cases();
+        const auto c = std::find_if(cases.begin(), cases.end(), [&](const Case& x) { return selftest::name_of(x) == name; });
+        REQUIRE(c != cases.end());
+        const Plan plan = make_plan(*c, kernels, 50'000);
+        Progress progress = start(*c, plan);
+        run_case(plan, kernels, 2, never, progress, [] {});
+        CHECK(progress.tally.rays > 10'000);
+        CHECK(progress.tally.failures == 0);
+    }
 }

@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from read_mesh import read_mesh  # noqa: E402
 
-FAR = 1e5  # distance of a directional light, scene units: POV-Ray's parallel lights stand somewhere
+FAR = 1e5  # distance of a directional light from the eye, scene units, at least: POV-Ray's parallel lights stand somewhere
 IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
 
 
@@ -52,8 +52,13 @@ def mean(a):
     return sum(a) / 3
 
 
+def number(x):
+    """The shortest text that reads back as the same double: POV-Ray computes in doubles."""
+    return repr(float(x))
+
+
 def vector(a):
-    return "<" + ",".join(f"{x:.9g}" for x in a) + ">"
+    return "<" + ",".join(number(x) for x in a) + ">"
 
 
 # ---- transformations: 3x4, world_from_object
@@ -105,11 +110,11 @@ def texture(material, ambient_light, settings):
     finish = [f"ambient rgb {vector(ambient)}", f"diffuse {1 if any(diffuse) else 0}"]
     specular = mean(material.get("specular", zero)) * opacity
     if specular > 0:
-        finish.append(f"specular {specular:.9g} roughness {1 / max(material.get('shininess', 1), 1e-3):.9g}")
+        finish.append(f"specular {number(specular)} roughness {number(1 / max(material.get('shininess', 1), 1e-3))}")
     reflective = material.get("reflective", zero)
     if any(reflective) and settings.get("reflections", True):
         finish.append(f"reflection {{ rgb {vector(times(reflective, opacity))} }}")
-    return (f"  texture {{ pigment {{ rgbt <{','.join(f'{x:.9g}' for x in pigment)},{1 - opacity:.9g}> }} "
+    return (f"  texture {{ pigment {{ rgbt <{','.join(map(number, pigment))},{number(1 - opacity)}> }} "
             f"finish {{ {' '.join(finish)} }} }}\n")
 
 
@@ -121,7 +126,7 @@ def transparency(material, settings):
 
 def interior(material, settings):
     index = material.get("refraction", 0) if settings.get("refraction", True) else 0
-    return f"  interior {{ ior {index:.9g} }}\n" if index > 0 else ""
+    return f"  interior {{ ior {number(index)} }}\n" if index > 0 else ""
 
 
 # ---- objects
@@ -139,17 +144,17 @@ def shapes(scene_object, directory):
     kind, material = scene_object["type"], scene_object.get("material", {})
     opening = "" if scene_object.get("capped", True) else " open"
     if kind == "sphere":
-        yield f"sphere {{ {vector(scene_object.get('position', [0, 0, 0]))}, {scene_object['radius']:.9g}\n", material
+        yield f"sphere {{ {vector(scene_object.get('position', [0, 0, 0]))}, {number(scene_object['radius'])}\n", material
     elif kind == "cylinder":
         half = scene_object["height"] / 2
-        yield f"cylinder {{ <0,{-half:.9g},0>, <0,{half:.9g},0>, {scene_object['radius']:.9g}{opening}\n", material
+        yield f"cylinder {{ <0,{number(-half)},0>, <0,{number(half)},0>, {number(scene_object['radius'])}{opening}\n", material
     elif kind == "cone":
         half = scene_object["height"] / 2
-        yield (f"cone {{ <0,{-half:.9g},0>, {scene_object['base_radius']:.9g}, <0,{half:.9g},0>, "
-               f"{scene_object.get('apex_radius', 0):.9g}{opening}\n"), material
+        yield (f"cone {{ <0,{number(-half)},0>, {number(scene_object['base_radius'])}, <0,{number(half)},0>, "
+               f"{number(scene_object.get('apex_radius', 0))}{opening}\n"), material
     elif kind == "plane":
         normal = unit(scene_object["normal"])
-        yield f"plane {{ {vector(normal)}, {dot(normal, scene_object['position']):.9g}\n", material
+        yield f"plane {{ {vector(normal)}, {number(dot(normal, scene_object['position']))}\n", material
     elif "file" in scene_object:
         points, groups = read_mesh(directory / scene_object["file"])
         for given, triangles in groups:
@@ -179,24 +184,35 @@ def fade(light):
     constant, linear, quadratic = light.get("attenuation", [1, 0, 0])
     constant = max(constant, 1e-6)
     if quadratic > 0:
-        return 0.5 / constant, f" fade_distance {math.sqrt(constant / quadratic):.9g} fade_power 2"
+        return 0.5 / constant, f" fade_distance {number(math.sqrt(constant / quadratic))} fade_power 2"
     if linear > 0:
-        return 0.5 / constant, f" fade_distance {constant / linear:.9g} fade_power 1"
+        return 0.5 / constant, f" fade_distance {number(constant / linear)} fade_power 1"
     return 1 / constant, ""
 
 
-def light_text(light, settings):
+def extent(scene):
+    """The largest coordinate or size that the scene names, about."""
+    values = [abs(x) for x in scene["camera"].get("position", [0])]
+    for scene_object in scene["objects"]:
+        values += [scene_object.get(key, 0) for key in ("radius", "height", "base_radius")]
+        values += [abs(x) for x in scene_object.get("position", [])]
+        for step in scene_object.get("transformations", []):
+            values += [abs(x) for x in step.get("translate", [])]
+    return max(values)
+
+
+def light_text(light, settings, eye, far):
     factor, extra = fade(light)
     if not settings.get("shadows", True):
         extra += " shadowless"
     position = light.get("position", [0, 0, 0])
     if light["type"] == "directional":
-        position = times(unit(light["direction"]), -FAR)
-        extra += " parallel point_at <0,0,0>"
+        position = add(eye, unit(light["direction"]), -far)
+        extra += f" parallel point_at {vector(eye)}"
     elif light["type"] == "spot":
         angle = min(light["cutoff"], 90)
         aim = add(position, unit(light["direction"]))
-        extra += f" spotlight radius {angle:.9g} falloff {angle:.9g} tightness 0 point_at {vector(aim)}"
+        extra += f" spotlight radius {number(angle)} falloff {number(angle)} tightness 0 point_at {vector(aim)}"
     return f"light_source {{ {vector(position)}, rgb {vector(times(light['color'], factor))}{extra} }}\n"
 
 
@@ -223,12 +239,13 @@ def convert(path, out, depth=None, size=None):
             ambient_light = light["color"]
     # the camera ray is level 1 there and level 0 here; adc_bailout drops rays of little weight, as `cutoff` does
     out.write("#version 3.7;\nglobal_settings { assumed_gamma 1 ambient_light rgb 1 "
-              f"max_trace_level {depth + 1} adc_bailout {settings.get('cutoff', 0):.9g} }}\n")
+              f"max_trace_level {depth + 1} adc_bailout {number(settings.get('cutoff', 0))} }}\n")
     out.write(f"background {{ rgb {vector(camera.get('background', [0, 0, 0]))} }}\n")
     out.write(camera_text(camera, size))
+    far = max(FAR, 10 * extent(scene))
     for light in scene["lights"]:
         if light["type"] != "ambient":
-            out.write(light_text(light, settings))
+            out.write(light_text(light, settings, camera.get("position", [0, 0, 0]), far))
     for scene_object in scene["objects"]:
         write_object(out, scene_object, ambient_light, settings, path.parent)
 

@@ -2,13 +2,8 @@
 // What both uses of Embree start from: a device of a given instruction set, and a mesh as a scene that is yet to be committed.
 
 #include "cli/bench/bench_mesh.hpp"
+#include "cli/embree_query.hpp"
 #include "scene/error.hpp"
-
-#if LANECAST_EMBREE_MAJOR == 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <cstring>
 #include <string>

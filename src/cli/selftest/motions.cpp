@@ -14,37 +14,6 @@ namespace {
 
 glm::dvec3 on_grid(const glm::dvec3& p, double step) { return glm::round(p / step) * step; }
 
-/// Hits in the caller's units, with normals.
-struct WorldHits {
-    std::vector<float> t, normal[3];
-    std::vector<std::int32_t> slot;
-};
-
-WorldHits ask_in_world(const Setting& s, const SceneArrays& scene, const Rays& rays) {
-    const std::size_t n = rays.size();
-    WorldHits hits{std::vector<float>(n), {}, std::vector<std::int32_t>(n)};
-    for (auto& axis : hits.normal) axis.resize(n);
-    StreamUnits units{};
-    for (int axis = 0; axis < 3; ++axis) units.centre[axis] = scene.normalisation.centre[axis];
-    units.scale = scene.normalisation.scale;
-    const std::size_t piece = s.path == Path::single ? 1 : n;
-    for (std::size_t begin = 0; begin < n; begin += piece) {
-        RayStream stream{};
-        for (int axis = 0; axis < 3; ++axis) {
-            stream.org[axis] = rays.org[axis].data() + begin;
-            stream.dir[axis] = rays.dir[axis].data() + begin;
-            stream.normal[axis] = hits.normal[axis].data() + begin;
-        }
-        stream.t = hits.t.data() + begin;
-        stream.slot = hits.slot.data() + begin;
-        stream.count = static_cast<std::uint32_t>(piece);
-        stream.incoherent = s.path == Path::mixed ? 1 : 0;
-        stream.units = &units;
-        s.kernels->closest_hit(view(scene), stream);
-    }
-    return hits;
-}
-
 /// Lengths and places on a grid of 2^-8.
 SceneDescription grid_scene(PrimitiveKind kind, Random& random) {
     constexpr double step = 0x1p-8;
@@ -100,7 +69,7 @@ void test_translated(const Block& block, Tally& tally) {
         rays.add(o, d);
         moved_rays.add(o + move, d);
     }
-    const WorldHits a = ask_in_world(s, here, rays), b = ask_in_world(s, there, moved_rays);
+    const WorldHits a = ask_in_world(*s.kernels, here, rays, s.path), b = ask_in_world(*s.kernels, there, moved_rays, s.path);
     const double unit = 0x1p-24 * glm::length(move);
     const auto object_of = [](const SceneArrays& arrays, std::int32_t slot) {
         return slot < 0 ? -1 : static_cast<int>(arrays.object[static_cast<std::size_t>(slot)]);

@@ -29,6 +29,31 @@ Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, P
     return hits;
 }
 
+WorldHits ask_in_world(const KernelTable& kernels, const SceneArrays& scene, const Rays& rays, Path path) {
+    const std::size_t n = rays.size();
+    WorldHits hits{std::vector<float>(n), {}, std::vector<std::int32_t>(n)};
+    for (auto& axis : hits.normal) axis.resize(n);
+    StreamUnits units{};
+    for (int axis = 0; axis < 3; ++axis) units.centre[axis] = scene.normalisation.centre[axis];
+    units.scale = scene.normalisation.scale;
+    const std::size_t piece = path == Path::single ? 1 : n;
+    for (std::size_t begin = 0; begin < n; begin += piece) {
+        RayStream stream{};
+        for (int axis = 0; axis < 3; ++axis) {
+            stream.org[axis] = rays.org[axis].data() + begin;
+            stream.dir[axis] = rays.dir[axis].data() + begin;
+            stream.normal[axis] = hits.normal[axis].data() + begin;
+        }
+        stream.t = hits.t.data() + begin;
+        stream.slot = hits.slot.data() + begin;
+        stream.count = static_cast<std::uint32_t>(piece);
+        stream.incoherent = path == Path::mixed ? 1 : 0;
+        stream.units = &units;
+        kernels.closest_hit(view(scene), stream);
+    }
+    return hits;
+}
+
 std::vector<std::uint32_t> shuffle(Rays& rays, std::uint64_t seed) {
     Random random(seed);
     std::vector<std::uint32_t> from(rays.size());

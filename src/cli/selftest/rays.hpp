@@ -42,6 +42,15 @@ enum class Query { closest, any };
 [[nodiscard]] Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, Path path,
                        Query query = Query::closest, bool brute_force = false);
 
+/// Hits in the caller's units, with normals.
+struct WorldHits {
+    std::vector<float> t, normal[3];
+    std::vector<std::int32_t> slot;
+};
+
+/// The closest hits of rays that are in the caller's units, too, and have no ranges.
+[[nodiscard]] WorldHits ask_in_world(const KernelTable& kernels, const SceneArrays& scene, const Rays& rays, Path path);
+
 /// Exchanges rays at random, their ranges with them; returns where each came from.
 std::vector<std::uint32_t> shuffle(Rays& rays, std::uint64_t seed);
 

@@ -1,6 +1,5 @@
 #include "cli/selftest/report.hpp"
 
-#include "cli/json_writer.hpp"
 #include "cli/print.hpp"
 
 namespace lanecast::selftest {
@@ -43,10 +42,7 @@ std::string table_row(const Progress& p) {
     return row;
 }
 
-std::string json_report(const std::string& run, const std::vector<Progress>& all) {
-    JsonWriter json;
-    json.open_object();
-    json.add("run", run);
+void add_cases(JsonWriter& json, const std::vector<Progress>& all) {
     json.open_list("cases");
     for (const Progress& p : all) {
         json.open_object();
@@ -69,6 +65,13 @@ std::string json_report(const std::string& run, const std::vector<Progress>& all
         json.close_object();
     }
     json.close_list();
+}
+
+std::string json_report(const std::string& run, const std::vector<Progress>& all) {
+    JsonWriter json;
+    json.open_object();
+    json.add("run", run);
+    add_cases(json, all);
     json.close_object();
     return json.finished();
 }

@@ -1,6 +1,7 @@
 # `lanecast selftest`. Its cases are a library of their own, for tests/extremes/ runs the same ones.
 add_library(lanecast_selftest STATIC
   cli/selftest/agreement.cpp
+  cli/selftest/caller.cpp
   cli/selftest/canaries.cpp
   cli/selftest/case.cpp
   cli/selftest/cases.cpp
@@ -13,6 +14,7 @@ add_library(lanecast_selftest STATIC
   cli/selftest/objects.cpp
   cli/selftest/optics.cpp
   cli/selftest/oracle.cpp
+  cli/selftest/peer_cases.cpp
   cli/selftest/picture.cpp
   cli/selftest/plan.cpp
   cli/selftest/progress.cpp
@@ -39,5 +41,9 @@ foreach(isa IN LISTS lanecast_isas lanecast_fast_isas lanecast_precise_isas)
   target_compile_definitions(lanecast_canaries_${isa} PRIVATE LANECAST_CANARY=canary_${isa})
   target_sources(lanecast_selftest PRIVATE $<TARGET_OBJECTS:lanecast_canaries_${isa}>)
 endforeach()
-target_sources(lanecast PRIVATE cli/selftest/selftest.cpp)
+target_sources(lanecast PRIVATE
+  cli/selftest/peer.cpp
+  cli/selftest/peer_report.cpp
+  cli/selftest/selftest.cpp
+)
 target_link_libraries(lanecast PRIVATE lanecast_selftest)

@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/print.hpp"
+#include "cli/selftest/peer_report.hpp"
 #include "cli/selftest/report.hpp"
 #include "cli/selftest/run.hpp"
 #include "cli/selftest/state.hpp"
@@ -27,7 +28,7 @@ struct SelftestRequest {
     bool full = false;
     double rays = 0; ///< per id; 0: as the size says
     std::vector<std::string> only, isas, precisions;
-    std::string json, resume;
+    std::string json, resume, peer;
     int threads = 0;
     bool list = false;
 };
@@ -48,9 +49,11 @@ std::vector<const KernelTable*> chosen_kernels(const SelftestRequest& request) {
     return tables;
 }
 
+const std::vector<Case>& known_cases(const SelftestRequest& request) { return request.peer.empty() ? all_cases() : peer_cases(); }
+
 std::vector<const Case*> chosen_cases(const SelftestRequest& request) {
     std::vector<const Case*> cases;
-    for (const Case& c : all_cases())
+    for (const Case& c : known_cases(request))
         if (request.only.empty() || std::find(request.only.begin(), request.only.end(), c.id) != request.only.end())
             cases.push_back(&c);
     for (const std::string& id : request.only)
@@ -60,16 +63,17 @@ std::vector<const Case*> chosen_cases(const SelftestRequest& request) {
 }
 
 std::uint64_t rays_of(const SelftestRequest& request, const Case& c) {
-    const auto parts = std::count_if(all_cases().begin(), all_cases().end(),
-                                     [&](const Case& other) { return std::string_view(other.id) == c.id; });
+    const std::vector<Case>& known = known_cases(request);
+    const auto parts =
+        std::count_if(known.begin(), known.end(), [&](const Case& other) { return std::string_view(other.id) == c.id; });
     if (request.rays == 0 && !request.full) return c.quick_rays;
     const double rays = request.rays > 0 ? request.rays : full_rays;
     return static_cast<std::uint64_t>(rays * c.full_share / static_cast<double>(parts));
 }
 
-std::string list_of_cases() {
+std::string list_of_cases(const std::vector<Case>& cases) {
     std::string text;
-    for (const Case& c : all_cases()) {
+    for (const Case& c : cases) {
         std::string name = selftest::name_of(c);
         name.resize(std::max<std::size_t>(name.size() + 1, 18), ' ');
         text += name + c.statement + " (" + text_of(c.target) + ")\n";
@@ -88,11 +92,49 @@ std::string describe(const SelftestRequest& request, const std::vector<const Ker
     return text;
 }
 
+Progress start(const Case& c, const Plan& plan) {
+    Progress progress;
+    progress.c = &c;
+    progress.planned = plan.blocks;
+    return progress;
+}
+
+/// Ours on one instruction set and the peer on the same one, each asked the same rays.
+int run_beside_peer(SelftestRequest request) {
+    if (!request.resume.empty()) throw Error(ExitCode::usage, "--resume: a comparison with a peer is not kept");
+    if (request.isas.empty()) request.isas = {std::string(best_isa())};
+    if (request.isas.size() > 1) throw Error(ExitCode::usage, "--isa: one at a time with --peer");
+    const std::vector<const KernelTable*> ours = chosen_kernels(request);
+    std::vector<Contender> contenders;
+    for (const KernelTable* k : ours) contenders.push_back({std::string("Lanecast ") + lanecast::name_of(k->precision), k});
+    for (const Contender& peer : embree_contenders(request.isas.front())) contenders.push_back(peer);
+    const std::string what = describe(request, ours) + ", beside " + contenders.back().name;
+    const int threads = request.threads > 0 ? request.threads : default_thread_count();
+    const InterruptScope interrupt;
+    print_result(what + "\n\n" + comparison_header(contenders));
+    std::vector<std::vector<Progress>> rows;
+    for (const Case* c : chosen_cases(request)) {
+        std::vector<Progress> row;
+        for (const Contender& contender : contenders) {
+            const std::vector<const KernelTable*> alone{contender.kernels}; // so blocks are the same for each
+            const Plan plan = make_plan(*c, alone, rays_of(request, *c));
+            row.push_back(start(*c, plan));
+            run_case(plan, alone, threads, interrupt.stop(), row.back(), [] {});
+            interrupt.check();
+        }
+        print_result(comparison_row(row));
+        rows.push_back(row);
+    }
+    if (!request.json.empty()) write_file(request.json, comparison_json(what, contenders, rows));
+    return static_cast<int>(ExitCode::done);
+}
+
 int run(const SelftestRequest& request) {
     if (request.list) {
-        print_result(list_of_cases());
+        print_result(list_of_cases(known_cases(request)));
         return static_cast<int>(ExitCode::done);
     }
+    if (!request.peer.empty()) return run_beside_peer(request);
     const std::vector<const KernelTable*> kernels = chosen_kernels(request);
     const std::string what = describe(request, kernels);
     const int threads = request.threads > 0 ? request.threads : default_thread_count();
@@ -100,10 +142,7 @@ int run(const SelftestRequest& request) {
     std::vector<Progress> all;
     for (const Case* c : chosen_cases(request)) {
         plans.push_back(make_plan(*c, kernels, rays_of(request, *c)));
-        Progress progress;
-        progress.c = c;
-        progress.planned = plans.back().blocks;
-        all.push_back(progress);
+        all.push_back(start(*c, plans.back()));
     }
     if (!request.resume.empty()) read_state(request.resume, what, all);
     const auto save = [&] {
@@ -150,6 +189,9 @@ void add_selftest(CLI::App& app, Command& chosen) {
     command->add_option("--json", request->json, "Write the results as JSON")->type_name("FILE");
     command->add_option("--resume", request->resume, "Keep the state in FILE, and go on from it if it is there")
         ->type_name("FILE");
+    command->add_option("--peer", request->peer, "Ask a peer the same rays where a case makes sense for it: embree")
+        ->check(CLI::IsMember({"embree"}))
+        ->type_name("NAME");
     command->add_flag("--list", request->list, "Only name the cases, what they state and their targets");
     command->final_callback([&chosen, request] { chosen = [request] { return run(*request); }; });
 }
