@@ -63,7 +63,8 @@ SceneDescription scene_of(const Penumbra& p) {
 }
 
 struct Errors {
-    double ours = 0, random = 0, bias = 0; ///< sums over pixels in penumbrae: squares, squares, differences
+    double ours = 0, random = 0; ///< sums of squares over pixels in penumbrae
+    double bias = 0;             ///< towards hard shadows: sum of what the brighter half has too much and the darker too little
     int pixels = 0;
 };
 
@@ -85,7 +86,7 @@ void add_errors(Errors& errors, const Penumbra& p, int n, int m, Random& random)
             for (int k = 0; k < m; ++k) seen += random.chance(truth);
             const double other = static_cast<double>(seen) / m - truth;
             errors.ours += ours * ours;
-            errors.bias += ours;
+            errors.bias += truth > 0.5 ? ours : -ours;
             errors.random += other * other;
             ++errors.pixels;
         }
