@@ -81,7 +81,8 @@ std::string stats_table(const RenderReport& report, const SceneArrays& arrays) {
     line(table, "%-14s %s", "scene", printable_path(report.scene).c_str());
     line(table, "%-14s %d x %d, tiles of %d", "image", report.options.width, report.options.height, report.options.tile_size);
     line(table, "%-14s %s, %s, %s per vector", "kernels", report.isa.c_str(),
-         name_of(report.settings.precision) + std::string(report.settings.precision >= Precision::precise ? " (double)" : ""),
+         (name_of(report.settings.precision) + std::string(report.settings.precision >= Precision::precise ? " (double)" : ""))
+             .c_str(),
          counted(static_cast<std::size_t>(report.width), "ray").c_str());
     line(table, "%-14s %d", "threads", stats.threads);
     line(table, "time");

@@ -84,7 +84,7 @@ struct RenderJob {
     FilmView film;
     std::int32_t image_width, image_height;
     std::int32_t tile_size;             ///< no tile is wider or higher
-    const std::int32_t* pixel_order[2]; ///< x and y of the pixels of a square in Morton order: tile_size a side, edge: 2 more
+    const std::int32_t* pixel_order[2]; ///< x and y of the pixels of a square in Morton order: tile_size a side, edge: 4 more
     std::uint32_t pixel_order_count;
     std::int32_t depth;
     float cutoff;

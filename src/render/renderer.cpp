@@ -53,9 +53,9 @@ void add(TileStats& sum, const TileStats& tile) noexcept {
     sum.total_ticks += tile.total_ticks;
 }
 
-// Edge traces the border of a tile too.
+// Edge traces a border of two pixels around a tile, too.
 PixelOrder pixel_order(const RenderSettings& settings, const FrameOptions& options) {
-    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 2 : 0));
+    return morton_order(options.tile_size + (settings.anti_aliasing.mode == AntiAliasMode::edge ? 4 : 0));
 }
 
 RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, const FrameOptions& options) {

@@ -16,7 +16,7 @@ enum class AntiAliasMode {
     off,
     cross, ///< four more rays per pixel that hits something: up, down, left, right; the five are averaged
     grid,  ///< samples x samples rays per pixel
-    edge,  ///< samples x samples rays where a pixel and its right or lower neighbour differ, one elsewhere
+    edge,  ///< samples x samples rays in pixels that an edge crosses, five beside them, one elsewhere
 };
 
 struct AntiAliasing {
@@ -41,7 +41,7 @@ struct RenderSettings {
     AntiAliasing anti_aliasing;
     int soft_shadows = 0; ///< shadow rays per light that has a `radius` or an `angle`; 0: hard shadows; at most 1024
     int depth = 8;        ///< the last level that is traced; the camera ray is level 0; at most 1024
-    double cutoff = 0;    ///< a child ray whose weight is below this is not traced; 0 to 1
+    double cutoff = 0;    ///< rays that together weigh less than this share of their camera ray are not traced; 0 to 1
     Precision precision = Precision::balanced;
 };
 

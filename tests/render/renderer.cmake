@@ -27,3 +27,11 @@ lanecast_test(test_switches LABELS unit
 foreach(test test_traversal test_determinism test_fast test_switches) # scenes and rays of `lanecast selftest`
   target_link_libraries(${test} PRIVATE lanecast_selftest)
 endforeach()
+# What adaptive work promises: rays and errors are counted, not timed.
+lanecast_test(test_adaptive LABELS unit
+  SOURCES
+  render/cutoff_test.cpp
+  render/edge_test.cpp
+  render/soft_shadow_test.cpp
+  render/render_support.cpp
+  scene/geometry_support.cpp)

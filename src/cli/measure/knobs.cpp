@@ -12,7 +12,7 @@
 namespace lanecast::trade {
 namespace {
 
-constexpr int edge_samples[] = {2, 3, 4, 6, 8}, grid_samples[] = {2, 3, 4, 6, 8};
+constexpr int edge_samples[] = {2, 3, 4, 5, 6, 8}, grid_samples[] = {2, 3, 4, 6, 8};
 constexpr int shadow_rays[] = {0, 1, 2, 4, 8, 16, 32, 64};
 constexpr int depths[] = {0, 1, 2, 3, 4, 6, 8, 12, 16};
 constexpr double cutoffs[] = {1.0 / 16, 1.0 / 64, 1.0 / 256, 1.0 / 1024, 1.0 / 4096};

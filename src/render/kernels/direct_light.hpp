@@ -75,7 +75,8 @@ std::uint32_t queue_shadow_rays(Wavefront<F>& w, const RayQueue<F>& queue, std::
         Vec3<F> dir = load<F>(l.to_light, i);
         if (soft) {
             const LightAt<F> at{dir, load<F>(l.wi, i), F(1), asked};
-            dir = sample_light(light, at, load_int<F>(queue.seed + i), static_cast<std::uint32_t>(sample), light_index);
+            dir = sample_light(light, at, load_int<F>(queue.seed + i), static_cast<std::uint32_t>(sample),
+                               static_cast<std::uint32_t>(w.job->soft_samples), light_index);
             asked = asked & (dot(dir, normal) > F(0)); // a part of the light that has set gives no light
         }
         // from the offset point, so that t = 1 is the light itself

@@ -7,18 +7,24 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
-/// The pixels of a region row by row, as their neighbours see them.
+/// Pixels that `edge` looks at around a tile: those whose neighbours' neighbours decide at its border.
+inline constexpr std::int32_t edge_border = 2;
+
+/// About as the eye and screens divide the range of a channel: the square root, from 0 for black to 1 for white.
+template <class T>
+LANECAST_INLINE T as_seen(T channel) {
+    return sqrt(max(channel, T(0)));
+}
+
+/// The centre rays of a region row by row, as their neighbours see them.
 template <FloatBatch F>
 struct RowMajor {
-    Scalar<F>*normal[3], *colour[3]; ///< of the centre ray
-    std::int32_t* object;            ///< -1: background
-    std::uint8_t* differs;
+    Scalar<F>* seen[3]; ///< colours as seen
+    std::uint8_t* bent;
 
     void allocate(ScratchLayout& layout, std::uint64_t n) {
-        layout.take3(normal, n);
-        layout.take3(colour, n);
-        object = layout.take<std::int32_t>(n);
-        differs = layout.take<std::uint8_t>(n);
+        layout.take3(seen, n);
+        bent = layout.take<std::uint8_t>(n);
     }
 };
 
@@ -35,13 +41,13 @@ struct PixelBatch {
     std::uint32_t* chosen; ///< of a second pass: indices of its pixels
     std::uint32_t chosen_count;
     // edge only
-    S* refined[3]; ///< sums of the second pass, which replaces the first
-    S* normal[3];  ///< of the centre ray's hit
+    S* corner_color[4][3]; ///< colours of the grid's corner samples
+    S* refined[3];         ///< sums of the grid
     RowMajor<F> row_major;
 
     void allocate(ScratchLayout& layout, const RenderJob& job) {
         const bool edge = job.anti_alias == AntiAliasKind::edge;
-        const std::uint64_t side = static_cast<std::uint64_t>(job.tile_size) + (edge ? 2u : 0u);
+        const std::uint64_t side = static_cast<std::uint64_t>(job.tile_size) + (edge ? 2u * edge_border : 0u);
         const std::uint64_t n = side * side + width<F>;
         x = layout.take<std::int32_t>(n);
         y = layout.take<std::int32_t>(n);
@@ -51,8 +57,8 @@ struct PixelBatch {
         slot = layout.take<std::int32_t>(n);
         chosen = layout.take<std::uint32_t>(n);
         if (!edge) return;
+        for (auto& color : corner_color) layout.take3(color, n);
         layout.take3(refined, n);
-        layout.take3(normal, n);
         row_major.allocate(layout, n + side);
     }
 };
@@ -100,52 +106,39 @@ void choose_hits(const RenderJob& job, PixelBatch<F>& pixels) {
     }
 }
 
-/// Bit 0 of row_major.differs: where one sample does not do between a pixel and its neighbour to the right, for there is another
-/// object, a crease, or a step in colour; bit 1: and the one below. The last column and row are compared with anything.
+/// Where colour, along a row or a column, is off the line between the two neighbours: at steps, whichever side, but not where it
+/// changes evenly. The outermost pixels of the region are compared with anything.
 template <FloatBatch F>
-void compare_neighbours(RowMajor<F>& at, std::uint32_t row, std::uint32_t area) {
-    using S = Scalar<F>;
-    for (std::uint32_t i = 0; i < area; i += width<F>) {
-        const auto differ = [&](std::uint32_t j) {
-            const auto step = [&](const S* channel) {
-                const F a = load<F>(channel + i), b = load<F>(channel + j);
-                return abs(a - b) > F(S(0.03)) * (F(S(0.25)) + max(abs(a), abs(b)));
-            };
-            const Int<F> object = load_int<F>(at.object + i);
-            const Mask<F> same = object == load_int<F>(at.object + j);
-            const F cos_angle = dot(load<F>(at.normal, i), load<F>(at.normal, j));
-            const Mask<F> crease = Mask<F>((object > Int<F>(-1)) & (cos_angle < F(S(0.9))));
-            return bits(Mask<F>((!same) | crease | step(at.colour[0]) | step(at.colour[1]) | step(at.colour[2])));
+void find_bends(RowMajor<F>& at, std::uint32_t row, std::uint32_t area, Scalar<F> limit) {
+    for (std::uint32_t i = row; i < area - row; i += width<F>) {
+        const auto bent = [&](const Scalar<F>* seen, std::uint32_t step) {
+            return abs(load<F>(seen + i - step) + load<F>(seen + i + step) - F(2) * load<F>(seen + i)) > F(limit);
         };
-        const std::uint32_t right = differ(i + 1), below = differ(i + row);
-        for (std::uint32_t lane = 0; lane < width<F>; ++lane)
-            at.differs[i + lane] = static_cast<std::uint8_t>(((right >> lane) & 1u) | (((below >> lane) & 1u) << 1));
+        Mask<F> any_channel(false);
+        for (const Scalar<F>* const seen : at.seen) any_channel = any_channel | bent(seen, 1) | bent(seen, row);
+        const std::uint32_t lanes = bits(any_channel);
+        for (std::uint32_t lane = 0; lane < width<F>; ++lane) at.bent[i + lane] = static_cast<std::uint8_t>((lanes >> lane) & 1u);
     }
 }
 
-/// Pixels of `tile` that differ from one of their four neighbours inside the region. Each pair is compared once.
+/// Pixels of `tile` that are bent, or one of whose eight neighbours is: that an edge ends between centres, or comes back behind
+/// them, shows at the next pixel. The region is the tile and its border.
 template <FloatBatch F>
-void choose_edges(const SceneView& scene, PixelBatch<F>& pixels, const Tile& region, const Tile& tile) {
+void choose_near_edges(PixelBatch<F>& pixels, const Tile& region, const Tile& tile, Scalar<F> limit) {
     const std::int32_t row = region.x1 - region.x0, rows = region.y1 - region.y0;
     RowMajor<F>& row_major = pixels.row_major;
     for (std::uint32_t i = 0; i < pixels.count; ++i) {
         const std::int32_t at = (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0);
-        const std::int32_t slot = pixels.slot[i];
-        row_major.object[at] = slot < 0 ? -1 : static_cast<std::int32_t>(scene.object[slot]);
-        for (int c = 0; c < 3; ++c) {
-            row_major.normal[c][at] = pixels.normal[c][i];
-            row_major.colour[c][at] = pixels.sum[c][i];
-        }
+        for (int c = 0; c < 3; ++c) row_major.seen[c][at] = as_seen(pixels.sum[c][i]);
     }
-    compare_neighbours(row_major, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows));
+    find_bends(row_major, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows), limit);
     pixels.chosen_count = 0;
     for (std::uint32_t i = 0; i < pixels.count; ++i) {
         if (pixels.x[i] < tile.x0 || pixels.x[i] >= tile.x1 || pixels.y[i] < tile.y0 || pixels.y[i] >= tile.y1) continue;
-        const std::int32_t x = pixels.x[i] - region.x0, y = pixels.y[i] - region.y0;
-        const std::uint8_t* const here = row_major.differs + y * row + x;
-        const bool edge = (x + 1 < row && (here[0] & 1) != 0) || (x > 0 && (here[-1] & 1) != 0) ||
-                          (y + 1 < rows && (here[0] & 2) != 0) || (y > 0 && (here[-row] & 2) != 0);
-        if (edge) pixels.chosen[pixels.chosen_count++] = i;
+        const std::uint8_t* const here = row_major.bent + (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0);
+        int near = 0;
+        for (std::int32_t dy = -row; dy <= row; dy += row) near |= here[dy - 1] | here[dy] | here[dy + 1];
+        if (near != 0) pixels.chosen[pixels.chosen_count++] = i;
     }
 }
 
@@ -177,6 +170,34 @@ void write_chosen(const FilmView& film, const Tile& tile, const PixelBatch<F>& p
         if (at < 0) continue;
         for (int c = 0; c < 3; ++c) film.rgb[c][at] = static_cast<float>(sum[c][i] / static_cast<Scalar<F>>(samples));
     }
+}
+
+/// Of the chosen pixels those stay in whose grid two opposite corners are off the line through the centre: they go on with the
+/// sum of their corners. The others are written, as the mean of the five.
+template <FloatBatch F>
+void choose_crossed(PixelBatch<F>& pixels, const FilmView& film, const Tile& tile, Scalar<F> limit) {
+    using S = Scalar<F>;
+    const auto& corner = pixels.corner_color;
+    std::uint32_t crossed_count = 0;
+    for (std::uint32_t k = 0; k < pixels.chosen_count; ++k) {
+        const std::uint32_t i = pixels.chosen[k];
+        bool crossed = false;
+        for (int c = 0; c < 3; ++c) {
+            const S centre = as_seen(pixels.sum[c][i]);
+            const auto bent = [&](int a, int b) {
+                return abs(as_seen(corner[a][c][i]) + as_seen(corner[b][c][i]) - S(2) * centre) > limit;
+            };
+            crossed |= bent(0, 3) || bent(1, 2);
+            pixels.refined[c][i] = (corner[0][c][i] + corner[1][c][i]) + (corner[2][c][i] + corner[3][c][i]);
+        }
+        if (crossed) {
+            pixels.chosen[crossed_count++] = i;
+            continue;
+        }
+        const std::int64_t at = film_index(film, tile, pixels, i);
+        for (int c = 0; c < 3; ++c) film.rgb[c][at] = static_cast<float>((pixels.sum[c][i] + pixels.refined[c][i]) / S(5));
+    }
+    pixels.chosen_count = crossed_count;
 }
 
 } // namespace lanecast::inline LANECAST_ISA

@@ -17,18 +17,14 @@ TileStats render_tile(const RenderJob& job, const Tile& tile, void* memory) {
     PixelBatch<F>& pixels = scratch.pixels;
 
     Tile region = tile;
-    if (job.anti_alias == AntiAliasKind::edge) { // the neighbours that decide at the tile's border
-        region.x0 -= tile.x0 > 0 ? 1 : 0;
-        region.y0 -= tile.y0 > 0 ? 1 : 0;
-        region.x1 += tile.x1 < job.image_width ? 1 : 0;
-        region.y1 += tile.y1 < job.image_height ? 1 : 0;
-    }
+    if (job.anti_alias == AntiAliasKind::edge)
+        region = {tile.x0 - edge_border, tile.y0 - edge_border, tile.x1 + edge_border, tile.y1 + edge_border};
     list_pixels(pixels, job, region);
     const auto side = static_cast<std::uint32_t>(job.samples);
     if (job.anti_alias == AntiAliasKind::grid) {
         choose_all(pixels);
         clear<F>(pixels.count, pixels.sum);
-        trace_samples(scratch, {side * side, side, 0, RayKind::primary}, pixels.sum);
+        add_samples(scratch, {SampleSet::grid, side, 0, RayKind::primary}, pixels.sum);
         write_chosen(job.film, tile, pixels, pixels.sum, side * side);
     } else {
         trace_centres(scratch);
@@ -36,13 +32,10 @@ TileStats render_tile(const RenderJob& job, const Tile& tile, void* memory) {
     }
     if (job.anti_alias == AntiAliasKind::cross) {
         choose_hits(job, pixels);
-        trace_samples(scratch, {4, 0, job.offset, RayKind::offset, 1}, pixels.sum);
+        add_samples(scratch, {SampleSet::cross, 0, job.offset, RayKind::offset}, pixels.sum);
         write_chosen(job.film, tile, pixels, pixels.sum, 5);
     } else if (job.anti_alias == AntiAliasKind::edge) {
-        choose_edges(job.scene, pixels, region, tile);
-        clear<F>(pixels.count, pixels.refined);
-        trace_samples(scratch, {side * side, side, 0, RayKind::offset}, pixels.refined);
-        write_chosen(job.film, tile, pixels, pixels.refined, side * side);
+        refine_edges(scratch, region, tile);
     }
     stats.total_ticks = ticks() - begin;
     return stats;

@@ -29,23 +29,45 @@ LANECAST_INLINE std::int32_t pixel_seed(std::int32_t x, std::int32_t y, std::uin
     return static_cast<std::int32_t>(h ^ (h >> 15));
 }
 
-/// The samples of a pass.
-struct SamplePattern {
-    std::uint32_t samples;
-    std::uint32_t side; ///< of the grid; 0: the four arms of the cross
-    float offset;
-    RayKind kind;
-    std::uint32_t first_seed = 0; ///< of the soft shadows of sample 0; the centre ray has 0
+/// Which samples of a pixel a pass takes: the four arms of a cross, a grid of side x side, the four of it nearest the pixel's
+/// corners, or the others.
+enum class SampleSet { cross, grid, corners, rest };
 
-    /// Of sample s, in pixels from the pixel's corner.
+struct SamplePattern {
+    SampleSet set;
+    std::uint32_t side; ///< of the grid
+    float offset;       ///< of the cross, in pixels
+    RayKind kind;
+
+    LANECAST_INLINE std::uint32_t count() const {
+        return set == SampleSet::grid ? side * side : set == SampleSet::rest ? side * side - 4 : 4;
+    }
+
+    /// Number of sample s: of a grid row by row, whatever part of it is taken; of the cross from 1, for the centre is 0.
+    LANECAST_INLINE std::uint32_t number(std::uint32_t s) const {
+        const std::uint32_t last_row = side * side - side;
+        switch (set) {
+        case SampleSet::cross:
+            return s + 1;
+        case SampleSet::corners:
+            return ((s & 1) != 0 ? side - 1 : 0) + ((s & 2) != 0 ? last_row : 0);
+        case SampleSet::rest:
+            s += s + 1 < side - 1 ? 1 : 2;   // past the corners of the first row,
+            return s < last_row ? s : s + 1; // and of the last
+        default:
+            return s;
+        }
+    }
+
+    /// Of the sample with this number, in pixels from the pixel's corner.
     template <class S>
-    LANECAST_INLINE void at(std::uint32_t s, S& x, S& y) const {
-        if (side == 0) { // up, down, left, right
-            x = S(0.5) + (s == 2 ? -static_cast<S>(offset) : s == 3 ? static_cast<S>(offset) : S(0));
-            y = S(0.5) + (s == 0 ? -static_cast<S>(offset) : s == 1 ? static_cast<S>(offset) : S(0));
+    LANECAST_INLINE void at(std::uint32_t n, S& x, S& y) const {
+        if (set == SampleSet::cross) { // up, down, left, right
+            x = S(0.5) + (n == 3 ? -static_cast<S>(offset) : n == 4 ? static_cast<S>(offset) : S(0));
+            y = S(0.5) + (n == 1 ? -static_cast<S>(offset) : n == 2 ? static_cast<S>(offset) : S(0));
         } else {
-            x = (static_cast<S>(s % side) + S(0.5)) / static_cast<S>(side);
-            y = (static_cast<S>(s / side) + S(0.5)) / static_cast<S>(side);
+            x = (static_cast<S>(n % side) + S(0.5)) / static_cast<S>(side);
+            y = (static_cast<S>(n / side) + S(0.5)) / static_cast<S>(side);
         }
     }
 };
@@ -63,19 +85,6 @@ void camera_rays(const RenderJob& job, RayQueue<F>& queue) {
         if (queue.record != nullptr) store(queue.record + i, Int<F>(-1));
     }
     queue.rays.tmin = static_cast<Scalar<F>>(job.camera.near);
-}
-
-/// Normals of the batch's surfaces: the integrator's own are gone when it returns.
-template <FloatBatch F>
-void keep_normals(const SceneView& scene, const RayQueue<F>& queue, Scalar<F>* const (&normal)[3], std::uint32_t first) {
-    for (std::uint32_t i = 0; i < queue.count; i += width<F>) {
-        const Int<F> slot = load_int<F>(queue.rays.slot + i);
-        const Mask<F> found = (slot > Int<F>(-1)) & first_lanes<F>(queue.count - i);
-        if (none(found)) continue;
-        const Surface<F> s =
-            surface_at<F>(scene, load<F>(queue.rays.org, i), load<F>(queue.rays.dir, i), load<F>(queue.rays.t + i), slot, found);
-        store<F>(normal, first + i, s.normal);
-    }
 }
 
 /// One ray through the centre of every pixel.
@@ -100,43 +109,75 @@ void trace_centres(TileScratch<F>& scratch) {
             store<F>(pixels.sum, begin + i, load<F>(queue.color, i));
             store(pixels.slot + begin + i, load_int<F>(queue.rays.slot + i));
         }
-        if (job.anti_alias == AntiAliasKind::edge) keep_normals<F>(job.scene, queue, pixels.normal, begin);
     }
 }
 
-/// All samples of the chosen pixels, a pixel's samples side by side, added up in order.
-template <FloatBatch F>
-void trace_samples(TileScratch<F>& scratch, const SamplePattern& pattern, Scalar<F>* const (&sum)[3]) {
+/// The samples of the chosen pixels, a pixel's side by side; `take(pixel, s, colour)` for each, in order.
+template <FloatBatch F, class Take>
+void trace_samples(TileScratch<F>& scratch, const SamplePattern& pattern, Take&& take) {
     using S = Scalar<F>;
     const RenderJob& job = *scratch.wavefront.job;
     const PixelBatch<F>& pixels = scratch.pixels;
     RayQueue<F>& queue = scratch.camera;
-    // the ray that comes next when queueing, and when adding up
-    std::uint32_t pixel = 0, sample = 0, summed_pixel = 0, summed_sample = 0;
+    const std::uint32_t samples = pattern.count();
+    // the ray that comes next when queueing, and when taking
+    std::uint32_t pixel = 0, sample = 0, taken_pixel = 0, taken_sample = 0;
     const auto step = [&](std::uint32_t& p, std::uint32_t& s) {
-        if (++s == pattern.samples) {
+        if (++s == samples) {
             s = 0;
             ++p;
         }
     };
-    while (pixel < pixels.chosen_count) {
+    while (samples > 0 && pixel < pixels.chosen_count) {
         std::uint32_t n = 0;
         for (; n < batch_rays && pixel < pixels.chosen_count; ++n, step(pixel, sample)) {
-            const std::uint32_t at = pixels.chosen[pixel];
+            const std::uint32_t at = pixels.chosen[pixel], number = pattern.number(sample);
             S x, y;
-            pattern.at(sample, x, y);
+            pattern.at(number, x, y);
             queue.rays.dir[0][n] = pixels.corner[0][at] + x;
             queue.rays.dir[1][n] = pixels.corner[1][at] + y;
-            if (queue.seed != nullptr) queue.seed[n] = pixel_seed(pixels.x[at], pixels.y[at], sample + pattern.first_seed);
+            if (queue.seed != nullptr) queue.seed[n] = pixel_seed(pixels.x[at], pixels.y[at], number);
         }
         queue.count = n;
         camera_rays(job, queue);
         trace_queue(scratch.wavefront, queue, pattern.kind, 0);
-        for (std::uint32_t i = 0; i < n; ++i, step(summed_pixel, summed_sample)) {
-            const std::uint32_t at = pixels.chosen[summed_pixel];
-            for (int c = 0; c < 3; ++c) sum[c][at] += queue.color[c][i];
-        }
+        for (std::uint32_t i = 0; i < n; ++i, step(taken_pixel, taken_sample))
+            take(pixels.chosen[taken_pixel], taken_sample, Vec3<S>{queue.color[0][i], queue.color[1][i], queue.color[2][i]});
     }
+}
+
+/// As above, added to `sum`.
+template <FloatBatch F>
+void add_samples(TileScratch<F>& scratch, const SamplePattern& pattern, Scalar<F>* const (&sum)[3]) {
+    trace_samples(scratch, pattern, [&](std::uint32_t at, std::uint32_t, const Vec3<Scalar<F>>& color) {
+        sum[0][at] += color.x;
+        sum[1][at] += color.y;
+        sum[2][at] += color.z;
+    });
+}
+
+/// A grid where one sample does not do. An edge that crosses a pixel parts its centre from a neighbour's; whether it does cross
+/// it, the grid's corner samples tell: a straight edge that parts none of them from the centre parts no two samples of the grid.
+/// So few rays are spent beside edges, all of the grid on them. Two colours differ that do so, as seen, by more than one sample
+/// of the grid changes between black and white.
+template <FloatBatch F>
+void refine_edges(TileScratch<F>& scratch, const Tile& region, const Tile& tile) {
+    using S = Scalar<F>;
+    const RenderJob& job = *scratch.wavefront.job;
+    PixelBatch<F>& pixels = scratch.pixels;
+    const auto side = static_cast<std::uint32_t>(job.samples);
+    if (side < 2) return;
+    const S limit = S(1) / static_cast<S>(side * side);
+    choose_near_edges(pixels, region, tile, limit);
+    trace_samples(scratch, {SampleSet::corners, side, 0, RayKind::offset},
+                  [&](std::uint32_t at, std::uint32_t s, const Vec3<S>& color) {
+                      pixels.corner_color[s][0][at] = color.x;
+                      pixels.corner_color[s][1][at] = color.y;
+                      pixels.corner_color[s][2][at] = color.z;
+                  });
+    choose_crossed(pixels, job.film, tile, limit);
+    add_samples(scratch, {SampleSet::rest, side, 0, RayKind::offset}, pixels.refined);
+    write_chosen(job.film, tile, pixels, pixels.refined, side * side);
 }
 
 } // namespace lanecast::inline LANECAST_ISA
