@@ -41,7 +41,7 @@ struct RenderSettings {
     AntiAliasing anti_aliasing;
     int soft_shadows = 0; ///< shadow rays per light that has a `radius` or an `angle`; 0: hard shadows; at most 1024
     int depth = 8;        ///< the last level that is traced; the camera ray is level 0; at most 1024
-    double cutoff = 0;    ///< rays that together weigh less than this share of their camera ray are not traced; 0 to 1
+    double cutoff = 0;    ///< a child ray whose weight is below this is not traced; 0 to 1
     Precision precision = Precision::balanced;
 };
 

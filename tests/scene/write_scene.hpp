@@ -94,7 +94,7 @@ inline Json to_json(const Camera& camera) {
 inline Json to_json(const RenderSettings& render) {
     static const char* const modes[] = {"off", "cross", "grid", "edge"};
     static const char* const bvh_modes[] = {"off", "default", "quality"};
-    static const char* const precisions[] = {"fast", "balanced", "reference"};
+    static const char* const precisions[] = {"fast", "balanced", "precise", "reference"};
     const AntiAliasing& aa = render.anti_aliasing;
     return {{"ambient", render.ambient},
             {"diffuse", render.diffuse},

@@ -19,7 +19,7 @@ struct RayQueue {
     using S = Scalar<F>;
     RayBatch<F> rays;
     S* color[3];
-    S* weight;            ///< by which a child is cut off, see worth_tracing; null unless the job has a cutoff
+    S* weight;            ///< what a unit of the ray's colour adds to its pixel at most; null unless the job has a cut-off
     std::int32_t* seed;   ///< of its soft shadows; null unless the job has any
     std::int32_t* record; ///< its TraceRecord; null unless the job has a log
     std::uint32_t count;

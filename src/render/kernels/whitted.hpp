@@ -66,42 +66,27 @@ void begin_shading(Wavefront<F>& w, RayQueue<F>& queue) {
     }
 }
 
-/// Children that are worth tracing, and their weights.
-template <FloatBatch F>
-struct Worth {
-    Mask<F> reflected, transmitted;
-    F reflected_weight, transmitted_weight;
-};
-
-/// A camera ray may lose `cutoff` of its light by rays that are not traced. At every surface a child that weighs less than what
-/// is left is dropped, at the expense of what is left, and of two that are not each gets half of it: so what is dropped of a
-/// tree weighs less than `cutoff` in all, however many rays that is. `weight` of a ray: times cutoff / what is left to it;
-/// `reflected`, `transmitted`: of the children relative to their parent.
-template <FloatBatch F>
-LANECAST_INLINE Worth<F> worth_tracing(F cutoff, F weight, F reflected, Mask<F> mirrors, F transmitted, Mask<F> glassy) {
-    const F zero(0), r = weight * reflected, t = weight * transmitted;
-    const Mask<F> keep_r = mirrors & (r >= cutoff);
-    F left = cutoff - select(mirrors & !keep_r, r, zero);
-    const Mask<F> keep_t = glassy & (t >= left);
-    left = left - select(glassy & !keep_t, t, zero);
-    const F share = cutoff / left * select(keep_r & keep_t, F(2), F(1));
-    return {keep_r, keep_t, r * share, t * share};
-}
-
 /// Where the children of vector v of a batch start from, and what they inherit.
 template <FloatBatch F>
 struct Spawn {
+    const RenderJob& job;
     const RayQueue<F>& parents;
     std::uint32_t v;
 
-    /// Queues the lanes of `traced`; the others of `wanted` see the background.
+    /// Queues the lanes of `wanted` that are worth tracing. `weight`: of the child relative to its parent.
     void operator()(Children<F>& children, const Vec3<F>& org, const Vec3<F>& dir, Int<F> source, F weight, const Vec3<F>& factor,
-                    Mask<F> wanted, Mask<F> traced, std::uint32_t seed_step) const {
+                    Mask<F> wanted, bool deeper, std::uint32_t seed_step) const {
         const std::uint32_t i = v * width<F>;
         RayQueue<F>& queue = children.queue;
         store<F>(children.factor, i, factor);
         children.wanted[v] = bits(wanted);
         children.first[v] = queue.count;
+        Mask<F> traced = deeper ? wanted : Mask<F>(false);
+        F path_weight(1);
+        if (queue.weight != nullptr) {
+            path_weight = load<F>(parents.weight + i) * weight;
+            traced = traced & (path_weight >= F(Scalar<F>(job.cutoff)));
+        }
         children.traced[v] = bits(traced);
         if (none(traced)) return;
         const std::uint32_t n = queue.count;
@@ -110,7 +95,7 @@ struct Spawn {
             compress_store<F>(queue.rays.dir[axis] + n, axis == 0 ? dir.x : axis == 1 ? dir.y : dir.z, traced);
         }
         compress_store_int<F>(queue.rays.source + n, source, traced);
-        if (queue.weight != nullptr) compress_store<F>(queue.weight + n, weight, traced);
+        if (queue.weight != nullptr) compress_store<F>(queue.weight + n, path_weight, traced);
         if (queue.seed != nullptr)
             compress_store_int<F>(queue.seed + n, multiply_add(load_int<F>(parents.seed + i), 747796405u, seed_step), traced);
         if (queue.record != nullptr) compress_store_int<F>(queue.record + n, load_int<F>(parents.record + i), traced);
@@ -152,24 +137,19 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
         const Mask<F> quadric = is_quadric<F>(scene, slot);
         const Int<F> outward = source_outward(slot), inward = select(quadric, source_inward(slot), outward);
         const Int<F> back = select(inside, inward, outward), onward = select(inside, outward, inward);
-        const Spawn<F> spawn{queue, v};
+        const Spawn<F> spawn{job, queue, v};
         Transmission<F> through{d, Mask<F>(false), F(1)};
         if (transmits || job.schlick != 0) through = transmit(d, n, index, inside);
         if (job.log != nullptr) log_fresnel(*job.log, queue.record + i, bits(mirrors), job.schlick != 0 ? through.fresnel : F(1));
-        const Vec3<F> factor = job.schlick != 0 ? reflective * through.fresnel : reflective;
-        Worth<F> worth{mirrors, glassy, F(1), F(1)};
-        if (!deeper) worth.reflected = worth.transmitted = Mask<F>(false);
-        if (deeper && queue.weight != nullptr) {
+        if (reflects) {
+            const Vec3<F> factor = job.schlick != 0 ? reflective * through.fresnel : reflective;
             const Vec3<F> opaque{F(1) - transmissive.x, F(1) - transmissive.y, F(1) - transmissive.z};
-            worth = worth_tracing(F(S(job.cutoff)), load<F>(queue.weight + i), largest(abs(factor * opaque)), mirrors,
-                                  largest(abs(transmissive)), glassy);
-        }
-        if (reflects)
-            spawn(frame.reflected, point + away, mirror(d, n), back, worth.reflected_weight, factor, mirrors, worth.reflected,
+            spawn(frame.reflected, point + away, mirror(d, n), back, largest(abs(factor * opaque)), factor, mirrors, deeper,
                   2891336453u);
+        }
         if (transmits)
             spawn(frame.transmitted, select(through.total, point + away, point - away), through.dir,
-                  select(through.total, back, onward), worth.transmitted_weight, transmissive, glassy, worth.transmitted, 1u);
+                  select(through.total, back, onward), largest(abs(transmissive)), transmissive, glassy, deeper, 1u);
     }
 }
 
