@@ -331,8 +331,8 @@ TEST_CASE("ellipsoid: object space agrees with the world's quadratic form") {
     REQUIRE(!errors.empty());
     std::sort(errors.begin(), errors.end());
     MESSAGE("ellipsoid: t in ulp 99 %: ", errors[errors.size() * 99 / 100], ", worst ", errors.back());
-    CHECK(errors[errors.size() * 99 / 100] <= 16);
-    CHECK(errors.back() <= 100);
+    CHECK(errors[errors.size() * 99 / 100] <= 2);
+    CHECK(errors.back() <= 4);
 }
 
 TEST_CASE("plane: t to within the conditioning of its angle, up to the horizon") {
