@@ -32,7 +32,7 @@ Outcome render(const std::filesystem::path& directory, const std::string& scene,
                const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"render", scene, "--size", "16x12", "-o", name};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments, {.directory = directory, .seconds = 300});
+    return run(arguments, {.directory = directory, .seconds = 900});
 }
 
 } // namespace

@@ -29,7 +29,7 @@ std::size_t lines_with(const std::string& text, const std::string& start) {
 TEST_CASE("tables, JSON, page and plots say the same") {
     const TemporaryDirectory directory;
     const Outcome outcome = run(quick({"--json", "m.json", "--html", "m.html", "--plot", "m.svg,m.png"}),
-                                {.directory = directory.path, .seconds = 300});
+                                {.directory = directory.path, .seconds = 900});
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     const auto json = nlohmann::json::parse(content_of(directory.path / "m.json"));
@@ -80,7 +80,7 @@ TEST_CASE("tables, JSON, page and plots say the same") {
 
 TEST_CASE("knobs set by hand are not turned") {
     const Outcome outcome = run(
-        quick({"--quiet", "--aa", "off", "--soft-shadows", "0", "--cutoff", "0.1", "--precision", "balanced"}), {.seconds = 300});
+        quick({"--quiet", "--aa", "off", "--soft-shadows", "0", "--cutoff", "0.1", "--precision", "balanced"}), {.seconds = 900});
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
     CHECK(lines_with(outcome.out, "depth  ") > 5);
