@@ -4,6 +4,7 @@
 #include "cli/selftest/leaf_tree.hpp"
 #include "cli/selftest/meshes.hpp"
 #include "cli/selftest/objects.hpp"
+#include "cli/selftest/oracle.hpp"
 #include "cli/selftest/picture.hpp"
 #include "cli/selftest/scenes.hpp"
 #include "render/camera.hpp"
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include <sys/resource.h>
 
@@ -83,7 +86,8 @@ void test_glass_furnace(const Block& block, Tally& tally) {
 
 namespace {
 
-SceneDescription mirror_cube(PrimitiveKind kind, Random& random) {
+/// The cube from -1 to 1.
+SceneDescription mirror_cube(PrimitiveKind kind) {
     SceneDescription scene;
     Material mirror;
     mirror.reflective = glm::dvec3(1);
@@ -97,41 +101,67 @@ SceneDescription mirror_cube(PrimitiveKind kind, Random& random) {
     } else {
         add_object(scene, closed_mesh(Form::gridded_box, 1), {}, mirror);
     }
-    scene.camera.position = random.point(0.5);
-    scene.camera.look_at = scene.camera.position + random.direction();
-    scene.camera.up = random.direction();
     return scene;
 }
 
-int face_of(const TraceRecord& record) {
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-        if (std::fabs(record.normal[k]) > std::fabs(record.normal[axis])) axis = k;
-    return 2 * axis + (record.normal[axis] < 0 ? 0 : 1);
-}
+/// What a ray does there, in 64 bits of mantissa: from wall to wall, one component of its direction turned round at each.
+class ExactPath {
+public:
+    ExactPath(const glm::vec3& org, const glm::vec3& dir, Real half_edge) : half_edge_(half_edge) {
+        for (int k = 0; k < 3; ++k) {
+            at[k] = Real{org[k]};
+            dir_[k] = Real{dir[k]};
+        }
+    }
+    /// To the next wall; true if the normal there is the given one.
+    bool meets(const float (&normal)[3]) {
+        int axis = 0;
+        Real t = std::numeric_limits<Real>::infinity();
+        for (int k = 0; k < 3; ++k)
+            if (const Real to_wall = (std::copysign(half_edge_, dir_[k]) - at[k]) / dir_[k]; to_wall < t) {
+                t = to_wall;
+                axis = k;
+            }
+        for (int k = 0; k < 3; ++k) at[k] += t * dir_[k];
+        at[axis] = std::copysign(half_edge_, dir_[axis]);
+        dir_[axis] = -dir_[axis];
+        return Real{normal[axis]} * std::copysign(Real{1}, dir_[axis]) == 1;
+    }
+    Real at[3];
 
-/// The rays of single pixels; memory is kept from pixel to pixel, most of which a path of 1000 levels touches.
+private:
+    Real dir_[3], half_edge_;
+};
+
+constexpr std::int32_t mirrorings = 1000;
+
+/// The rays of a picture of one pixel; memory is kept from path to path, most of which a path of 1000 levels touches.
 class PathTracer {
 public:
-    explicit PathTracer(const KernelTable& kernels) : kernels_(kernels), records_(levels + 8) {}
+    explicit PathTracer(const KernelTable& kernels) : kernels_(kernels), records_(mirrorings + 8) {}
 
-    const std::vector<TraceRecord>& trace(const SceneArrays& scene, const Camera& camera, const RenderSettings& settings, int x,
-                                          int y) {
+    /// The camera's first.
+    std::span<const TraceRecord> trace(const SceneArrays& scene, const glm::vec3& org, const glm::vec3& dir) {
+        RenderSettings settings;
+        settings.depth = mirrorings;
         FrameOptions options;
-        options.width = options.height = 16;
-        options.tile_size = 1;
-        RenderJob job = make_job(scene, camera, settings, options);
+        options.width = options.height = options.tile_size = 1;
+        RenderJob job = make_job(scene, Camera{}, settings, options);
+        for (int k = 0; k < 3; ++k) {
+            job.camera.org[k] = org[k];
+            job.camera.forward[k] = dir[k]; // and the pixel's centre is the picture's
+        }
         const PixelOrder order = morton_order(1);
         job.pixel_order[0] = order.x.data();
         job.pixel_order[1] = order.y.data();
         job.pixel_order_count = order.count;
-        const Tile pixel{x, y, x + 1, y + 1};
-        Film film = make_film(16, 16, pixel);
+        const Tile pixel{0, 0, 1, 1};
+        Film film = make_film(1, 1, pixel);
         job.film = view(film);
         TraceLight light{};
         TraceLog log{.rays = records_.data(),
                      .lights = &light,
-                     .ray_capacity = levels + 8,
+                     .ray_capacity = static_cast<std::int32_t>(records_.size()),
                      .light_capacity = 1,
                      .ray_count = 0,
                      .light_count = 0};
@@ -141,11 +171,8 @@ public:
             bytes_ = bytes;
         }
         static_cast<void>(kernels_.render_tile(job, pixel, scratch_.get()));
-        count = std::min(log.ray_count, levels + 8);
-        return records_;
+        return std::span(records_).first(std::min(static_cast<std::size_t>(log.ray_count), records_.size()));
     }
-    static constexpr std::int32_t levels = 1001;
-    std::int32_t count = 0; ///< of the last path
 
 private:
     const KernelTable& kernels_;
@@ -156,37 +183,29 @@ private:
 
 } // namespace
 
-/// A thousand mirrorings against the same in double. Failure: another face; error: of the last point, in half edges.
+/// A thousand mirrorings, from the same floats. Failure: another face; error: of the last point, in half edges.
 void test_mirror_cube(const Block& block, Tally& tally) {
     Random random(block.seed);
-    const Setting& s = block.setting;
-    PathTracer ours(*s.kernels), exact(find_kernels("auto", Precision::reference));
-    RenderSettings settings;
-    settings.depth = 1000;
-    std::uint64_t rays = 0;
+    const SceneArrays scene = flatten(mirror_cube(block.setting.primitive), RenderSettings{}, 1);
+    const double half_edge = scene.normalisation.scale;
+    PathTracer ours(*block.setting.kernels);
     rusage before{}, after{};
     ::getrusage(RUSAGE_SELF, &before);
-    while (rays < block.rays) {
-        const SceneDescription scene = mirror_cube(s.primitive, random);
-        const SceneArrays arrays = flatten(scene, settings, 1);
-        for (int pixel = 0; pixel < 16; ++pixel) {
-            const int x = random.below(16), y = random.below(16);
-            const auto& a = ours.trace(arrays, scene.camera, settings, x, y);
-            const auto& b = exact.trace(arrays, scene.camera, settings, x, y);
-            rays += PathTracer::levels;
-            tally.rays += 1; // paths: what the target counts
-            const auto length = static_cast<std::size_t>(std::min(ours.count, exact.count));
-            std::size_t k = 0;
-            while (k < length && (a[k].slot < 0) == (b[k].slot < 0) && face_of(a[k]) == face_of(b[k])) ++k;
-            if (k < 1001) {
-                tally.fail("another face after " + std::to_string(k) + " mirrorings");
-                continue;
-            }
-            double error = 0;
-            for (int axis = 0; axis < 3; ++axis)
-                error = std::max(error, std::fabs(double{a[1000].point[axis]} - double{b[1000].point[axis]}));
-            tally.add_error(error / arrays.normalisation.scale);
+    for (std::uint64_t path = 0; path * mirrorings < block.rays; ++path) {
+        const glm::vec3 org(random.point(0.9 * half_edge)), dir(random.direction());
+        const std::span<const TraceRecord> records = ours.trace(scene, org, dir);
+        ExactPath exact(org, dir, Real{half_edge});
+        tally.rays += 1; // paths: what the target counts
+        std::size_t k = 0;
+        while (k < records.size() && records[k].slot >= 0 && exact.meets(records[k].normal)) ++k;
+        if (k <= mirrorings) {
+            tally.fail("another face after " + std::to_string(k) + " mirrorings");
+            continue;
         }
+        Real error = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            error = std::max(error, std::fabs(Real{records[mirrorings].point[axis]} - exact.at[axis]));
+        tally.add_error(static_cast<double>(error) / half_edge);
     }
     ::getrusage(RUSAGE_SELF, &after);
     if (after.ru_maxrss - before.ru_maxrss > 256 * 1024) tally.fail("memory grew by more than 256 MiB");

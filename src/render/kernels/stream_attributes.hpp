@@ -67,8 +67,8 @@ void write_attributes(const SceneView& scene, const RayStream& stream, std::uint
         if (any(triangles)) {
             const TriangleHit<F> hit = triangle_hit(scene, org, dir, slot, triangles);
             normal = select(triangles, hit.normal, normal);
-            u = select(triangles, hit.edges.v * hit.inv_det, u);
-            v = select(triangles, hit.edges.w * hit.inv_det, v);
+            u = select(triangles, hit.weight_b, u);
+            v = select(triangles, hit.weight_c, v);
         }
         if (any(others)) {
             const Surface<F> surface = surface_at(scene, org, dir, load<F>(rays.t + i), slot, others);

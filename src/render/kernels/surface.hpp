@@ -38,20 +38,43 @@ LANECAST_INLINE void merge(Point<F>& into, Mask<F> lanes, const Point<F>& from) 
     into.inside = (into.inside & !lanes) | (from.inside & lanes);
 }
 
-/// The triangles of a packet's hits, and where the rays meet their planes.
+/// The triangles of a packet's hits, and where on them the rays meet their planes.
 template <FloatBatch F>
 struct TriangleHit {
     Vec3<F> a, b, c, normal;
-    TriangleEdges<F> edges; ///< the same numbers as when they were hit
-    F inv_det;              ///< the weight of b is edges.v * inv_det, that of c edges.w * inv_det
+    F weight_b, weight_c; ///< both and their sum in [0, 1]
 };
+
+/// The weights of b and c by Moeller and Trumbore 1997, in double: a path of many mirrors goes astray by what its points are off
+/// (selftest N17: in float, by the edges that the triangle was hit with, ten times as far). Both are on the triangle, also
+/// where it is seen edge-on and the determinant is nothing.
+template <FloatBatch F>
+LANECAST_INLINE void weigh(const Vec3<F>& org, const Vec3<F>& dir, TriangleHit<F>& hit) {
+    using D = InDouble<F>;
+    using Type = typename D::Type;
+    struct Vector {
+        Type x, y, z;
+    };
+    const auto exact = [](const Vec3<F>& v) { return Vector{D::from(v.x), D::from(v.y), D::from(v.z)}; };
+    const auto less = [](const Vector& p, const Vector& q) { return Vector{p.x - q.x, p.y - q.y, p.z - q.z}; };
+    const auto cross = [](const Vector& p, const Vector& q) {
+        return Vector{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+    };
+    const auto dot = [](const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
+    const Vector a = exact(hit.a), d = exact(dir), to_b = less(exact(hit.b), a), to_c = less(exact(hit.c), a);
+    const Vector from_a = less(exact(org), a), across = cross(d, to_c);
+    const F inv_det = F(1) / D::rounded(dot(to_b, across));
+    const F zero(0), one(1);
+    hit.weight_b = max(min(D::rounded(dot(from_a, across)) * inv_det, one), zero); // NaN: 1
+    hit.weight_c = max(min(D::rounded(dot(d, cross(from_a, to_b))) * inv_det, one - hit.weight_b), zero);
+}
 
 template <FloatBatch F>
 LANECAST_INLINE TriangleHit<F> triangle_hit(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
                                             Mask<F> lanes) {
     using S = Scalar<F>;
     const Vec3<F> zero{F(0), F(0), F(0)};
-    Vec3<F> a = zero, b = zero, c = zero, n = zero;
+    TriangleHit<F> hit{zero, zero, zero, zero, F(0), F(0)};
     for_each_unique<F>(slot, lanes, [&](std::int32_t s, Mask<F> same) {
         const TriangleRecord& triangle = scene.triangles[s];
         const std::uint32_t count = ((triangle.block >> 3) & 7u) + 1u;
@@ -60,32 +83,23 @@ LANECAST_INLINE TriangleHit<F> triangle_hit(const SceneView& scene, const Vec3<F
         const auto vertex = [&](std::uint32_t k) {
             return Vec3<F>{F(S(v[3 * k * count])), F(S(v[(3 * k + 1) * count])), F(S(v[(3 * k + 2) * count]))};
         };
-        a = select(same, vertex(0), a);
-        b = select(same, vertex(1), b);
-        c = select(same, vertex(2), c);
-        n = select(same, splat<F>(triangle.normal), n);
+        hit.a = select(same, vertex(0), hit.a);
+        hit.b = select(same, vertex(1), hit.b);
+        hit.c = select(same, vertex(2), hit.c);
+        hit.normal = select(same, splat<F>(triangle.normal), hit.normal);
     });
-    const Vec3<F> magnitude = abs(dir);
-    const Mask<F> z_wins = magnitude.z > max(magnitude.x, magnitude.y);
-    const Mask<F> y_wins = (!z_wins) & (magnitude.y > magnitude.x);
-    const auto permute = [&](const Vec3<F>& v) { // kx, ky, kz: x wins: y z x, y wins: z x y
-        return Vec3<F>{select(z_wins, v.x, select(y_wins, v.z, v.y)), select(z_wins, v.y, select(y_wins, v.x, v.z)),
-                       select(z_wins, v.z, select(y_wins, v.y, v.x))};
-    };
-    const Vec3<F> d = permute(dir);
-    const F inv_dz = F(1) / d.z;
-    const ShearedRay<F> ray{permute(org), {d.x * inv_dz, d.y * inv_dz, inv_dz}};
-    const TriangleEdges<F> edges = triangle_edges(ray, permute(a), permute(b), permute(c));
-    return {a, b, c, n, edges, F(1) / (edges.u + edges.v + edges.w)};
+    weigh(org, dir, hit);
+    return hit;
 }
 
 /// By barycentric weights: on the triangle to within the bound, however far the ray came (docs/numerics.md).
 template <FloatBatch F>
 LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, Int<F> slot,
                                         Mask<F> lanes) {
-    const auto [a, b, c, n, edges, inv_det] = triangle_hit(scene, org, dir, slot, lanes);
-    const Vec3<F> along_b = (b - a) * (edges.v * inv_det), along_c = (c - a) * (edges.w * inv_det);
-    return {a + (along_b + along_c), n, (abs(a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>), dot(dir, n) > F(0)};
+    const TriangleHit<F> hit = triangle_hit(scene, org, dir, slot, lanes);
+    const Vec3<F> along_b = (hit.b - hit.a) * hit.weight_b, along_c = (hit.c - hit.a) * hit.weight_c;
+    return {hit.a + (along_b + along_c), hit.normal, (abs(hit.a) + abs(along_b) + abs(along_c)) * F(gamma_7<F>),
+            dot(dir, hit.normal) > F(0)};
 }
 
 template <FloatBatch F>
