@@ -84,7 +84,7 @@ const std::vector<Case>& all_cases() {
         {"N16", "glass", "glass there gives no light of its own",
          {}, test_glass_furnace, pictures, 2'000'000, 32768},
         {"N17", "", "a thousand mirrorings in a cube",
-         {.failure_rate = 0.005, .mean = 2e-5}, test_mirror_cube, {only(triangle) | only(plane), 1, 1, false}, 300'000, 65536, 0.1},
+         {.failure_rate = 0.005, .mean = 2e-5}, test_mirror_cube, {only(triangle) | only(plane), 1, 1, false}, 1'000'000, 65536, 0.1},
         {"N18", "", "the share that glass mirrors, at any angle and past the critical one",
          {}, test_fresnel, kernels_only, 1'000'000, 16384},
         {"N19", "", "no infinity in a half file, and the count of what was cut",

@@ -185,7 +185,7 @@ void add_selftest(CLI::App& app, Command& chosen) {
         ->delimiter(',')
         ->type_name("LIST");
     command->add_option("--precision", request->precisions, "Precisions; default: all")->delimiter(',')->type_name("LIST");
-    command->add_option("-t,--threads", request->threads, "Default: all CPUs")->check(CLI::Range(1, 1024))->type_name("N");
+    command->add_option("--threads", request->threads, "Default: all CPUs")->check(CLI::Range(1, 1024))->type_name("N");
     command->add_option("--json", request->json, "Write the results as JSON")->type_name("FILE");
     command->add_option("--resume", request->resume, "Keep the state in FILE, and go on from it if it is there")
         ->type_name("FILE");

@@ -51,18 +51,9 @@ struct TriangleHit {
 template <FloatBatch F>
 LANECAST_INLINE void weigh(const Vec3<F>& org, const Vec3<F>& dir, TriangleHit<F>& hit) {
     using D = InDouble<F>;
-    using Type = typename D::Type;
-    struct Vector {
-        Type x, y, z;
-    };
-    const auto exact = [](const Vec3<F>& v) { return Vector{D::from(v.x), D::from(v.y), D::from(v.z)}; };
-    const auto less = [](const Vector& p, const Vector& q) { return Vector{p.x - q.x, p.y - q.y, p.z - q.z}; };
-    const auto cross = [](const Vector& p, const Vector& q) {
-        return Vector{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-    };
-    const auto dot = [](const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
-    const Vector a = exact(hit.a), d = exact(dir), to_b = less(exact(hit.b), a), to_c = less(exact(hit.c), a);
-    const Vector from_a = less(exact(org), a), across = cross(d, to_c);
+    using Vector = DoubleVec3<F>;
+    const Vector a = Vector::from(hit.a), d = Vector::from(dir), from_a = Vector::from(org) - a;
+    const Vector to_b = Vector::from(hit.b) - a, to_c = Vector::from(hit.c) - a, across = cross(d, to_c);
     const F inv_det = F(1) / D::rounded(dot(to_b, across));
     const F zero(0), one(1);
     hit.weight_b = max(min(D::rounded(dot(from_a, across)) * inv_det, one), zero); // NaN: 1
@@ -188,12 +179,16 @@ LANECAST_INLINE Point<F> cone_point(const SceneView& scene, const Vec3<F>& org, 
 
 template <FloatBatch F>
 LANECAST_INLINE Point<F> plane_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, std::int32_t slot) {
-    using S = Scalar<F>;
     const PlaneRecord& plane = plane_at(scene, static_cast<std::uint32_t>(slot));
+    using D = InDouble<F>;
+    using Vector = DoubleVec3<F>;
     const Vec3<F> n = splat<F>(plane.normal);
-    const Vec3<F> along = org + dir * t;
-    const Vec3<F> p = along - n * (dot(n, along) - F(S(plane.distance)));
-    return {p, n, abs(along) * F(gamma_7<F>), dot(dir, n) > F(0)};
+    const Vector normal = Vector::splat(plane.normal), d = Vector::from(dir), p = Vector::from(org) + d * D::from(t);
+    const F height = D::rounded(dot(normal, p) - D::splat(double{plane.distance})); // what the rounding of t left
+    const F more = height / D::rounded(dot(normal, d)); // along the ray, so that it stays on its way, unless it grazes
+    const Vec3<F> back = select(abs(more) < abs(t) * F(Scalar<F>(0.001)), dir * more, n * height);
+    const Vec3<F> point = (p - Vector::from(back)).rounded();
+    return {point, n, abs(point) * F(gamma_7<F>), dot(dir, n) > F(0)};
 }
 
 /// Where the rays of a packet meet primitives of any kinds.

@@ -2,7 +2,7 @@
 // Points and directions of the world in the space of an object, whose matrix is the same for all lanes.
 
 #include "scene/scene_view.hpp"
-#include "simd/vec3.hpp"
+#include "simd/double_vec3.hpp"
 
 namespace lanecast::inline LANECAST_ISA {
 
@@ -37,18 +37,16 @@ LANECAST_INLINE Vec3<F> point_to_object(const AffineRecord& affine, const Vec3<F
 
 namespace detail {
 
-/// A row of object_from_world times v, in double.
+/// A row of object_from_world.
 template <FloatBatch F>
-LANECAST_INLINE typename InDouble<F>::Type row_times(const AffineRecord& affine, int row,
-                                                     const typename InDouble<F>::Type (&v)[3]) {
-    const auto m = [&](int k) { return InDouble<F>::splat(static_cast<double>(affine.object_from_world[3 * row + k])); };
-    return m(0) * v[0] + m(1) * v[1] + m(2) * v[2];
+LANECAST_INLINE DoubleVec3<F> row_of(const AffineRecord& affine, int row) {
+    const float* const m = affine.object_from_world + 3 * row;
+    return DoubleVec3<F>::splat({m[0], m[1], m[2]});
 }
-/// All of them, each rounded once.
+/// object_from_world * v, each component rounded once.
 template <FloatBatch F>
-LANECAST_INLINE Vec3<F> multiply_exactly(const AffineRecord& affine, const typename InDouble<F>::Type (&v)[3]) {
-    const auto row = [&](int i) { return InDouble<F>::rounded(row_times<F>(affine, i, v)); };
-    return {row(0), row(1), row(2)};
+LANECAST_INLINE Vec3<F> multiply_exactly(const AffineRecord& affine, const DoubleVec3<F>& v) {
+    return DoubleVec3<F>{dot(row_of<F>(affine, 0), v), dot(row_of<F>(affine, 1), v), dot(row_of<F>(affine, 2), v)}.rounded();
 }
 
 } // namespace detail
@@ -66,20 +64,12 @@ struct ObjectRay {
         : affine(affine_), org_world(org_), dir_world(dir_), org(point_to_object(affine_, org_)),
           dir(multiply<F>(affine_.object_from_world, dir_)) {}
 
-    LANECAST_INLINE void refine() {
-        dir = detail::multiply_exactly<F>(affine, {D::from(dir_world.x), D::from(dir_world.y), D::from(dir_world.z)});
-    }
+    LANECAST_INLINE void refine() { dir = detail::multiply_exactly(affine, DoubleVec3<F>::from(dir_world)); }
     /// The point at t, rounded once.
-    [[nodiscard]] LANECAST_INLINE Vec3<F> at(F t) const {
-        typename D::Type p[3];
-        from_centre(t, p);
-        return detail::multiply_exactly<F>(affine, p);
-    }
+    [[nodiscard]] LANECAST_INLINE Vec3<F> at(F t) const { return detail::multiply_exactly(affine, from_centre(t)); }
     /// How far above y the point at t is, rounded once.
     [[nodiscard]] LANECAST_INLINE F above(double y, F t) const {
-        typename D::Type p[3];
-        from_centre(t, p);
-        return D::rounded(detail::row_times<F>(affine, 1, p) - D::splat(y));
+        return D::rounded(dot(detail::row_of<F>(affine, 1), from_centre(t)) - D::splat(y));
     }
     /// Where the true ray meets the body, this ray is at most so far from it. There |t dir_world| is at most the distance and
     /// `radius`; rounding may reach 18 u of all these, so that 170 u leave room for that of whoever asks.
@@ -91,11 +81,9 @@ struct ObjectRay {
 private:
     using D = InDouble<F>;
 
-    LANECAST_INLINE void from_centre(F t, typename D::Type (&p)[3]) const {
-        const typename D::Type s = D::from(t);
-        const F o[3] = {org_world.x, org_world.y, org_world.z}, d[3] = {dir_world.x, dir_world.y, dir_world.z};
-        for (int k = 0; k < 3; ++k)
-            p[k] = D::from(o[k]) - D::splat(static_cast<double>(affine.translation[k])) + D::from(d[k]) * s;
+    [[nodiscard]] LANECAST_INLINE DoubleVec3<F> from_centre(F t) const {
+        return DoubleVec3<F>::from(org_world) - DoubleVec3<F>::splat(affine.translation) +
+               DoubleVec3<F>::from(dir_world) * D::from(t);
     }
 };
 
