@@ -33,7 +33,7 @@ struct RenderRequest {
     FrameRequest frame;
     std::optional<std::string> output;
     std::optional<Tile> crop;
-    int tile_size = 32;
+    std::optional<int> tile_size;
     View view = default_view;
     double exposure = 0;
     trade::Budget budget;
@@ -73,7 +73,8 @@ void add_options(CLI::App& command, RenderRequest& request) {
     command.add_flag("--no-volatile-metadata", request.no_volatile_metadata,
                      "Leave out of the EXR what differs from run to run: ISA, threads, times, ray counts, host, date");
     command.add_flag("--stats", request.stats, "Print where the time went and which rays were traced");
-    add_number_option(command, "--tile", "Edge of a tile in pixels, 1 to 64; default 32. The picture does not depend on it",
+    add_number_option(command, "--tile",
+                      "Edge of a tile in pixels, 1 to 64; default 64, or 32 in small pictures. The picture does not depend on it",
                       tile_key, [&](double value) { request.tile_size = static_cast<int>(value); });
     trade::add_budget_options(command, request.budget);
     add_frame_options(command, request.frame);
@@ -82,13 +83,12 @@ void add_options(CLI::App& command, RenderRequest& request) {
 
 [[nodiscard]] FrameOptions requested_frame(const RenderRequest& request, const RequestedScene& scene) {
     FrameOptions options = frame_options(request.frame, scene);
-    options.tile_size = request.tile_size;
-    if (!request.crop) return options;
-    options.crop = *request.crop;
+    if (request.crop) options.crop = *request.crop;
     if (options.crop.x1 > options.width || options.crop.y1 > options.height)
         throw Error(ExitCode::usage, "--crop: must lie in the image, " + std::to_string(options.width) + "x" +
                                          std::to_string(options.height) + ", and reaches to " + std::to_string(options.crop.x1) +
                                          "," + std::to_string(options.crop.y1));
+    options.tile_size = request.tile_size.value_or(default_tile_size(options));
     return options;
 }
 

@@ -97,7 +97,8 @@ struct RenderJob {
     std::int32_t samples; ///< per side
     float offset;
     std::uint32_t offset_planes;
-    TraceLog* log; ///< null but for `pick`
+    TraceLog* log;    ///< null but for `pick`
+    const bool* stop; ///< once true, set by another thread, the rest of the tile is not traced; may be null
 };
 
 /// The caller's coordinates: (p - centre) * scale is normalised. t has the same value in both once multiplied by scale, a power

@@ -14,6 +14,12 @@
 namespace lanecast {
 namespace {
 
+/// An empty crop is the whole image.
+Tile rendered_part(const FrameOptions& options) {
+    const Tile& crop = options.crop;
+    return crop.x1 <= crop.x0 || crop.y1 <= crop.y0 ? Tile{0, 0, options.width, options.height} : crop;
+}
+
 using Clock = std::chrono::steady_clock;
 
 AntiAliasKind anti_alias_kind(AntiAliasMode mode) {
@@ -79,14 +85,19 @@ RenderJob make_job(const SceneArrays& scene, const Camera& camera, const RenderS
     return job;
 }
 
+int default_tile_size(const FrameOptions& options) {
+    return TileGrid(rendered_part(options), 64).count() >= 16u * static_cast<unsigned>(std::max(options.threads, 1)) ? 64 : 32;
+}
+
 Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const Camera& camera, const RenderSettings& settings,
                    const FrameOptions& options, const Progress& progress) {
-    Tile crop = options.crop;
-    if (crop.x1 <= crop.x0 || crop.y1 <= crop.y0) crop = {0, 0, options.width, options.height};
+    const Tile crop = rendered_part(options);
     Frame frame;
     frame.film = make_film(options.width, options.height, crop);
     RenderJob job = make_job(scene, camera, settings, options);
     job.film = view(frame.film);
+    static_assert(sizeof(std::atomic<bool>) == sizeof(bool) && std::atomic<bool>::is_always_lock_free);
+    job.stop = reinterpret_cast<const bool*>(options.stop); // kernels include no header with functions
     const PixelOrder order = pixel_order(settings, options);
     job.pixel_order[0] = order.x.data();
     job.pixel_order[1] = order.y.data();
@@ -110,6 +121,7 @@ Frame render_frame(const KernelTable& kernels, const SceneArrays& scene, const C
         for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < tiles.count() && !stopped();
              i = next.fetch_add(1, std::memory_order_relaxed)) {
             const TileStats tile = kernels.render_tile(job, tiles.at(i), scratch[static_cast<std::size_t>(worker)].get());
+            if (stopped()) break; // perhaps within the tile
             add(sum, tile);
             done.fetch_add(1, std::memory_order_relaxed);
             rays.fetch_add(ray_count(tile), std::memory_order_relaxed);

@@ -20,6 +20,10 @@ constexpr KeySpec color_key(std::string_view name, bool is_required = false) {
     return {
         .name = name, .kind = numbers, .required = is_required, .range = not_negative, .length = 3, .what = "a colour [r, g, b]"};
 }
+/// Its products with a colour, and the sums of these, are finite (`combine` in render/kernels/whitted.hpp).
+constexpr KeySpec share_key(std::string_view name) {
+    return {.name = name, .kind = numbers, .range = {.low = 0, .high = 1e6}, .length = 3, .what = "a colour [r, g, b]"};
+}
 constexpr KeySpec point_key(std::string_view name, bool is_required = false) {
     return {.name = name, .kind = numbers, .required = is_required, .length = 3, .what = "a point [x, y, z]"};
 }
@@ -92,8 +96,8 @@ constexpr KeySpec render_keys[] = {switch_key("ambient"),
 constexpr KeySpec material_keys[] = {color_key("ambient"),
                                      color_key("diffuse"),
                                      color_key("specular"),
-                                     color_key("reflective"),
-                                     color_key("transmissive"),
+                                     share_key("reflective"),
+                                     share_key("transmissive"),
                                      {.name = "shininess", .range = not_negative},
                                      {.name = "refraction", .range = not_negative}};
 

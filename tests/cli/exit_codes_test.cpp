@@ -325,14 +325,17 @@ TEST_CASE("values that overflow are told of, with --quiet too, and are an error 
 TEST_CASE("130 and 143: an interrupted frame leaves the old files and nothing else") {
     const TemporaryDirectory directory;
     put(directory.path / "a.png", "old png");
-    const std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "16"};
+    std::vector<std::string> hours{"render", small, "-o", "a", "--size", "8192x8192", "--aa", "grid", "--aa-samples", "16"};
     const bool terminal = have_terminals();
     for (const int signal : {SIGINT, SIGTERM}) {
+        if (signal == SIGTERM) // and where one tile takes hours
+            hours.insert(hours.end(), {"--tile", "64", "--soft-shadows", "1024", "--depth", "64", "--precision", "reference"});
         const Outcome outcome = run(hours, {.directory = directory.path,
                                             .environment = {"TERM=xterm"},
                                             .terminal = terminal,
                                             .signal_at = terminal ? " % [" : "rendering",
-                                            .signal = signal});
+                                            .signal = signal,
+                                            .seconds = 120});
         CHECK(outcome.code == 128 + signal);
         CHECK(contains(outcome.err, "lanecast: interrupted"));
         CHECK(content_of(directory.path / "a.png") == "old png");

@@ -46,7 +46,8 @@ public:
         return out;
     }
 
-    Material material() { return {color(), color(), color(), color(), color(), not_negative(), not_negative()}; }
+    glm::dvec3 share() { return {real(0, 1e6), coin() ? 0 : 1e6, real(0, 1)}; }
+    Material material() { return {color(), color(), color(), share(), share(), not_negative(), not_negative()}; }
 
     Transformation transformation() {
         // Factors near 1, so that a few composed ones stay invertible.

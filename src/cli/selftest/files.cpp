@@ -15,9 +15,10 @@
 namespace lanecast::selftest {
 namespace {
 
-/// Finite, of any size; often about the ends of half's range.
+/// Finite, of any size; often about the ends of half's range, and in the middle between two halves.
 float any_finite(Random& random) {
-    const int kind = random.below(4);
+    const int kind = random.below(5);
+    if (kind == 4) return std::bit_cast<float>(std::bit_cast<std::uint32_t>(any_finite(random)) & ~0xfffu);
     if (kind == 0) return static_cast<float>(random.uniform(65000, 66000)) * (random.chance(0.5) ? 1.0f : -1.0f);
     if (kind == 1) return static_cast<float>(random.uniform(-1, 1) * random.magnitude(1e-9, 1e-3));
     for (;;) {

@@ -33,8 +33,19 @@ void test_scaled_scene(const Block& block, Tally& tally) {
 void test_threads(const Block& block, Tally& tally) {
     const Setting& s = block.setting;
     for_each_picture(block, tally, [&](Random& random) {
-        const SceneDescription scene = random_lit_scene(s.primitive, s.placing, 4 + random.below(20), random);
+        SceneDescription scene = random_lit_scene(s.primitive, s.placing, 4 + random.below(20), random);
         RenderSettings settings;
+        settings.transmissive_shadows = random.chance(0.2);
+        if (random.chance(0.3)) { // where each pixel has its own samples of a light
+            settings.soft_shadows = 1 + random.below(3);
+            for (Light& any : scene.lights)
+                std::visit(
+                    [&](auto& light) {
+                        if constexpr (requires { light.radius; }) light.radius = random.uniform(0, 1);
+                        if constexpr (requires { light.angle; }) light.angle = random.uniform(0, 10);
+                    },
+                    any);
+        }
         if (random.chance(0.5)) {
             settings.anti_aliasing.mode = random.chance(0.5) ? AntiAliasMode::edge : AntiAliasMode::cross;
             settings.anti_aliasing.samples = 2;

@@ -89,6 +89,19 @@ void test_translated(const Block& block, Tally& tally) {
     }
 }
 
+namespace {
+
+/// The same triangle of both scenes, whose stored normals do not turn as `linear` does.
+bool turns_over(const SceneArrays& a, std::int32_t from, const SceneArrays& b, std::int32_t to, const glm::dmat3& linear) {
+    if (from < 0 || to < 0) return false;
+    const auto i = static_cast<std::size_t>(from), k = static_cast<std::size_t>(to);
+    if (i >= a.first_slot[1] || k >= b.first_slot[1] || a.scene_id[i] != b.scene_id[k]) return false;
+    const auto &m = a.triangles[i].normal, &n = b.triangles[k].normal;
+    return glm::length(linear * glm::dvec3(m[0], m[1], m[2]) - glm::dvec3(n[0], n[1], n[2])) > 1e-6;
+}
+
+} // namespace
+
 /// Turned by quarters and mirrored at will: exact in every coordinate.
 void test_turned(const Block& block, Tally& tally) {
     Random random(block.seed);
@@ -102,6 +115,8 @@ void test_turned(const Block& block, Tally& tally) {
     }
     if (random.chance(0.5)) turn.emplace_back(Scale{{-1, 1, 1}});
     const glm::dmat3 linear = compose(turn).linear;
+    for (int column = 0; column < 3; ++column)
+        if (linear[column] != glm::round(linear[column])) tally.fail("a turn by quarters is not exact");
     SceneDescription turned = scene;
     for (Object& object : turned.objects) {
         if (auto* plane = std::get_if<Plane>(&object.shape))
@@ -123,6 +138,7 @@ void test_turned(const Block& block, Tally& tally) {
         const int to = second.slot[i] < 0 ? -1 : static_cast<int>(b.object[static_cast<std::size_t>(second.slot[i])]);
         ++tally.rays;
         const double error = from < 0 ? 0 : ulps(second.t[i], double{first.t[i]});
+        if (turns_over(a, first.slot[i], b, second.slot[i], linear)) tally.fail("ray " + std::to_string(i) + ": another normal");
         if (from == to && error <= 4) continue;
         if (!is_answer(view(a), rays.o(i), rays.d(i), 16, to, second.t[i]) ||
             !is_answer(view(a), rays.o(i), rays.d(i), 16, from, first.t[i]))

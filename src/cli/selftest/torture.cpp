@@ -26,6 +26,7 @@ std::string number(Random& random, double ordinary, double odd) {
 }
 std::string triple(Random& random, double size, double odd) {
     const glm::dvec3 p = random.point(size);
+    if (random.chance(odd / 8)) return "[0,0,0]";
     return "[" + number(random, p.x, odd) + "," + number(random, p.y, odd) + "," + number(random, p.z, odd) + "]";
 }
 
@@ -34,10 +35,11 @@ std::string shape(Random& random, double odd) {
     case 0:
         return R"("type":"sphere","radius":)" + number(random, 1, odd) + R"(,"position":)" + triple(random, 2, odd);
     case 1:
-        return R"("type":"cylinder","radius":)" + number(random, 1, odd) + R"(,"height":)" + number(random, 1, odd);
+        return R"("type":"cylinder","radius":)" + number(random, 1, odd) + R"(,"height":)" + number(random, 1, odd) +
+               (random.chance(0.5) ? R"(,"capped":false)" : "");
     case 2:
         return R"("type":"cone","base_radius":)" + number(random, 1, odd) + R"(,"apex_radius":)" + number(random, 0, odd) +
-               R"(,"height":)" + number(random, 1, odd);
+               R"(,"height":)" + number(random, 1, odd) + (random.chance(0.5) ? R"(,"capped":false)" : "");
     case 3:
         return R"("type":"plane","position":)" + triple(random, 2, odd) + R"(,"normal":)" + triple(random, 1, odd);
     default: {
@@ -71,9 +73,14 @@ std::string torture_scene(Random& random) {
         if (i == 0)
             text += R"({"type":"ambient","color":)" + positive() + "}";
         else if (random.chance(0.5))
-            text += R"({"type":"directional","color":)" + positive() + R"(,"direction":)" + triple(random, 1, odd) + "}";
+            text += R"({"type":"directional","color":)" + positive() + R"(,"direction":)" + triple(random, 1, odd) +
+                    R"(,"angle":)" + number(random, 5, odd) + "}";
         else
-            text += R"({"type":"point","color":)" + positive() + R"(,"position":)" + triple(random, 5, odd) + "}";
+            text += (random.chance(0.5) ? R"({"type":"point")"
+                                        : R"({"type":"spot","cutoff":)" + number(random, 60, odd) + R"(,"direction":)" +
+                                              triple(random, 1, odd)) +
+                    R"(,"color":)" + positive() + R"(,"position":)" + triple(random, 5, odd) + R"(,"attenuation":)" + positive() +
+                    R"(,"radius":)" + number(random, 0.5, odd) + "}";
     }
     return text + "]}";
 }
@@ -88,9 +95,12 @@ double processor_seconds() {
 
 /// A message or a picture without a NaN; a crash would end the program.
 void test_torture(const Block& block, Tally& tally) {
-    RenderSettings settings;
-    settings.depth = 4;
     for_each_picture(block, tally, [&](Random& random) {
+        RenderSettings settings;
+        settings.depth = 4;
+        settings.schlick = random.chance(0.5);
+        settings.transmissive_shadows = random.chance(0.5);
+        settings.soft_shadows = 2 * random.below(2);
         const std::string text = torture_scene(random);
         std::uint64_t rays = 1; // the text
         try {

@@ -21,10 +21,12 @@ template <FloatBatch F>
 struct RowMajor {
     Scalar<F>* seen[3]; ///< colours as seen
     std::uint8_t* bent;
+    std::uint8_t* near; ///< or a neighbour is; of the tile only
 
     void allocate(ScratchLayout& layout, std::uint64_t n) {
         layout.take3(seen, n);
         bent = layout.take<std::uint8_t>(n);
+        near = layout.take<std::uint8_t>(n);
     }
 };
 
@@ -121,24 +123,29 @@ void find_bends(RowMajor<F>& at, std::uint32_t row, std::uint32_t area, Scalar<F
     }
 }
 
-/// Pixels of `tile` that are bent, or one of whose eight neighbours is: that an edge ends between centres, or comes back behind
+/// Pixels of the tile that are bent, or one of whose eight neighbours is: that an edge ends between centres, or comes back behind
 /// them, shows at the next pixel. The region is the tile and its border.
 template <FloatBatch F>
-void choose_near_edges(PixelBatch<F>& pixels, const Tile& region, const Tile& tile, Scalar<F> limit) {
+void choose_near_edges(PixelBatch<F>& pixels, const Tile& region, Scalar<F> limit) {
     const std::int32_t row = region.x1 - region.x0, rows = region.y1 - region.y0;
-    RowMajor<F>& row_major = pixels.row_major;
-    for (std::uint32_t i = 0; i < pixels.count; ++i) {
-        const std::int32_t at = (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0);
-        for (int c = 0; c < 3; ++c) row_major.seen[c][at] = as_seen(pixels.sum[c][i]);
-    }
-    find_bends(row_major, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows), limit);
+    RowMajor<F>& at = pixels.row_major;
+    const auto place = [&](std::uint32_t i) { return (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0); };
+    for (std::uint32_t i = 0; i < pixels.count; i += width<F>) // `refined` is free until corners are added to it
+        for (int c = 0; c < 3; ++c) store(pixels.refined[c] + i, as_seen(load<F>(pixels.sum[c] + i)));
+    for (std::uint32_t i = 0; i < pixels.count; ++i)
+        for (int c = 0; c < 3; ++c) at.seen[c][place(i)] = pixels.refined[c][i];
+    find_bends(at, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows), limit);
+
+    for (std::int32_t i = 0; i < row * rows; ++i) at.near[i] = 0;
+    const auto bent_in_row = [](const std::uint8_t* p) { return p[-1] | p[0] | p[1]; };
+    for (std::int32_t y = edge_border; y < rows - edge_border; ++y)
+        for (std::int32_t i = y * row + edge_border; i < (y + 1) * row - edge_border; ++i)
+            at.near[i] = static_cast<std::uint8_t>(bent_in_row(at.bent + i - row) | bent_in_row(at.bent + i) |
+                                                   bent_in_row(at.bent + i + row));
     pixels.chosen_count = 0;
     for (std::uint32_t i = 0; i < pixels.count; ++i) {
-        if (pixels.x[i] < tile.x0 || pixels.x[i] >= tile.x1 || pixels.y[i] < tile.y0 || pixels.y[i] >= tile.y1) continue;
-        const std::uint8_t* const here = row_major.bent + (pixels.y[i] - region.y0) * row + (pixels.x[i] - region.x0);
-        int near = 0;
-        for (std::int32_t dy = -row; dy <= row; dy += row) near |= here[dy - 1] | here[dy] | here[dy + 1];
-        if (near != 0) pixels.chosen[pixels.chosen_count++] = i;
+        pixels.chosen[pixels.chosen_count] = i;
+        pixels.chosen_count += at.near[place(i)];
     }
 }
 

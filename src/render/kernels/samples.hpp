@@ -168,7 +168,7 @@ void refine_edges(TileScratch<F>& scratch, const Tile& region, const Tile& tile)
     const auto side = static_cast<std::uint32_t>(job.samples);
     if (side < 2) return;
     const S limit = S(1) / static_cast<S>(side * side);
-    choose_near_edges(pixels, region, tile, limit);
+    choose_near_edges(pixels, region, limit);
     trace_samples(scratch, {SampleSet::corners, side, 0, RayKind::offset},
                   [&](std::uint32_t at, std::uint32_t s, const Vec3<S>& color) {
                       pixels.corner_color[s][0][at] = color.x;

@@ -153,6 +153,14 @@ void spawn_children(Wavefront<F>& w, const RayQueue<F>& queue, Frame<F>& frame, 
     }
 }
 
+/// No more than what shares of up to 1e6 multiply to a number: infinities of both signs would add up to none.
+template <FloatBatch F>
+LANECAST_INLINE Vec3<F> bounded(const Vec3<F>& color) {
+    const F most(Scalar<F>(1e30));
+    const auto bound = [&](F channel) { return max(min(channel, most), -most); };
+    return {bound(color.x), bound(color.y), bound(color.z)};
+}
+
 /// The children's colours in the order of the traced lanes, the background for the others.
 template <FloatBatch F>
 LANECAST_INLINE Vec3<F> color_of_children(const Children<F>& children, std::uint32_t v, const Vec3<F>& background) {
@@ -161,7 +169,7 @@ LANECAST_INLINE Vec3<F> color_of_children(const Children<F>& children, std::uint
     const Vec3<F> color{expand_load<F>(children.queue.color[0] + first, traced),
                         expand_load<F>(children.queue.color[1] + first, traced),
                         expand_load<F>(children.queue.color[2] + first, traced)};
-    return select(traced, color, background);
+    return select(traced, bounded(color), background);
 }
 
 /// color = local + F reflective trace(R), then color (1 - transmissive) + transmissive trace(T).
@@ -175,7 +183,7 @@ void combine(const RenderJob& job, RayQueue<F>& queue, const Frame<F>& frame) {
         const std::uint32_t glassy = transmits ? frame.transmitted.wanted[v] : 0;
         if ((mirrors | glassy) == 0) continue;
         const std::uint32_t i = v * width<F>;
-        Vec3<F> color = load<F>(queue.color, i);
+        Vec3<F> color = bounded(load<F>(queue.color, i));
         if (mirrors != 0) {
             const Vec3<F> factor = load<F>(frame.reflected.factor, i);
             const Vec3<F> mirrored = color + factor * color_of_children(frame.reflected, v, background);
@@ -197,7 +205,7 @@ void combine(const RenderJob& job, RayQueue<F>& queue, const Frame<F>& frame) {
 template <FloatBatch F>
 void trace_queue(Wavefront<F>& w, RayQueue<F>& queue, RayKind kind, std::int32_t level) {
     const RenderJob& job = *w.job;
-    if (queue.count == 0) return;
+    if (queue.count == 0 || (job.stop != nullptr && __atomic_load_n(job.stop, __ATOMIC_RELAXED))) return;
     trace<Query::closest>(job.scene, queue.rays, queue.count, job.brute_force != 0, *w.trace,
                           w.stats->kinds[static_cast<int>(kind)]);
     detail::begin_shading(w, queue);
