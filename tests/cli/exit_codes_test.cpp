@@ -334,8 +334,7 @@ TEST_CASE("130 and 143: an interrupted frame leaves the old files and nothing el
                                             .environment = {"TERM=xterm"},
                                             .terminal = terminal,
                                             .signal_at = terminal ? " % [" : "rendering",
-                                            .signal = signal,
-                                            .seconds = 120});
+                                            .signal = signal});
         CHECK(outcome.code == 128 + signal);
         CHECK(contains(outcome.err, "lanecast: interrupted"));
         CHECK(content_of(directory.path / "a.png") == "old png");

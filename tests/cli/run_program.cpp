@@ -87,7 +87,7 @@ Outcome run(const std::vector<std::string>& arguments, const RunOptions& options
 
     Outcome outcome;
     bool out_open = true, err_open = true, signalled = options.signal_at.empty();
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
+    auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
     while (out_open || err_open) {
         pollfd ends[] = {{out_open ? out.read_end : -1, POLLIN, 0}, {err_open ? err.read_end : -1, POLLIN, 0}};
         ::poll(ends, 2, 100);
@@ -96,6 +96,7 @@ Outcome run(const std::vector<std::string>& arguments, const RunOptions& options
         if (!signalled && outcome.err.find(options.signal_at) != std::string::npos) {
             ::kill(child, options.signal);
             signalled = true;
+            deadline = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds_after);
         }
         if (std::chrono::steady_clock::now() > deadline) ::kill(child, SIGKILL);
     }

@@ -21,6 +21,7 @@ struct RunOptions {
     std::string signal_at{}; ///< once this text is on its standard error ...
     int signal = SIGINT;     ///< ... it gets this signal
     int seconds = 60;        ///< then it is killed
+    int seconds_after = 20;  ///< of the signal, then too
 };
 
 struct Outcome {

@@ -150,3 +150,17 @@ TEST_CASE("a frame that is told to stop stops") {
     CHECK(!frame.complete);
     CHECK(frame.stats.tiles.kinds[0].rays == 0);
 }
+
+TEST_CASE("tiles are large where every thread gets enough of them") {
+    FrameOptions options;
+    const auto size = [&](int width, int height, int threads, Tile crop = {0, 0, 0, 0}) {
+        options.width = width, options.height = height, options.threads = threads, options.crop = crop;
+        return default_tile_size(options);
+    };
+    CHECK(size(512, 512, 2) == 64);
+    CHECK(size(512, 512, 4) == 64); // 16 each
+    CHECK(size(512, 512, 5) == 32);
+    CHECK(size(64, 64, 1) == 32);
+    CHECK(size(4096, 4096, 2, {0, 0, 64, 64}) == 32);
+    CHECK(size(1920, 1080, 200) == 32);
+}

@@ -117,3 +117,29 @@ TEST_CASE("the pictures of random scenes are those of an independent tracer") {
     report("reference", reference);
     report("balanced", balanced);
 }
+
+TEST_CASE("the largest shares and colours overflow to infinities, never to no number") {
+    SceneDescription scene;
+    scene.camera.background = glm::dvec3(1e30);
+    Material glass;
+    glass.ambient = glm::dvec3(1e30);
+    glass.reflective = glass.transmissive = {1e6, 1, 0.5};
+    for (const double x : {-0.5, 0.5}) {
+        Object& object = scene.objects.emplace_back();
+        object.shape = Sphere{1, {x, 0, 0}};
+        object.material = glass;
+    }
+    scene.lights.emplace_back(AmbientLight{glm::dvec3(1e30)});
+    scene.camera.position = {0, 0, 4};
+    RenderSettings settings;
+    settings.depth = 8;
+    const SceneArrays arrays = flatten(scene, settings, 1);
+    FrameOptions options;
+    options.width = options.height = 16;
+    for (const KernelTable* kernels : usable_kernels()) {
+        CAPTURE(kernels->isa);
+        const Frame frame = render_frame(*kernels, arrays, scene.camera, settings, options);
+        for (const auto& plane : frame.film.rgb)
+            CHECK(std::ranges::none_of(plane, [](float value) { return std::isnan(value); }));
+    }
+}

@@ -46,7 +46,7 @@ struct TriangleHit {
 };
 
 /// The weights of b and c by Moeller and Trumbore 1997, in double: a path of many mirrors goes astray by what its points are off
-/// (selftest N17: in float, by the edges that the triangle was hit with, ten times as far). Both are on the triangle, also
+/// (selftest N17: in float, by the edges that the triangle was hit with, four times as far). Both are on the triangle, also
 /// where it is seen edge-on and the determinant is nothing.
 template <FloatBatch F>
 LANECAST_INLINE void weigh(const Vec3<F>& org, const Vec3<F>& dir, TriangleHit<F>& hit) {
