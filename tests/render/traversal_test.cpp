@@ -151,6 +151,23 @@ TEST_CASE("spatial splits change no hit: random scenes and needles, rays aimed a
     CHECK(tally.hits > tally.rays / 20);
 }
 
+TEST_CASE("the tree finds what testing every primitive finds: rays that end at one point, on surfaces and beyond the scene") {
+    Random random(9);
+    selftest::Random source(random.engine());
+    Tally tally;
+    for (int n = 0; n < cases(600); ++n) {
+        SceneDescription scene = random_scene(random, 1 + random.below(60));
+        if (n % 3 == 0) scene.objects.push_back({needles(random, 20 + random.below(300)), {}, {}, ""});
+        const SceneArrays arrays = flatten(scene, RenderSettings{}, 1);
+        for (int batch = 0; batch < 4; ++batch) {
+            const auto count = static_cast<std::uint64_t>(1 + random.below(random.chance(0.5) ? 40 : 2000));
+            REQUIRE(check_all(arrays, selftest::rays_to_lamp(arrays, count, source), tally) == "");
+        }
+    }
+    CHECK(tally.hits > tally.rays / 5);
+    CHECK(tally.hits < tally.rays / 10 * 9);
+}
+
 TEST_CASE("coincident primitives: the smaller scene id is hit, whatever the tree, packet and ISA") {
     Random random(5);
     Tally tally;

@@ -77,6 +77,11 @@ public:
             with_ray(i / width, [&](auto& ray) { lane_of(ray.tfar, i % width) = set_->tmax; });
             if (set_->query == Query::closest) lane_of(rays_->closest[i / width].hit.geomID, i % width) = RTC_INVALID_GEOMETRY_ID;
         }
+        const std::size_t first = begin / width, packets = (end + width - 1) / width - first;
+        if (set_->query == Query::closest)
+            warm(&rays_->closest[first], packets * sizeof(rays_->closest[first]));
+        else
+            warm(&rays_->any[first], packets * sizeof(rays_->any[first]));
     }
 
     void trace(std::size_t chunk) override {

@@ -20,16 +20,15 @@ public:
     }
 
     void reset(std::size_t chunk) override {
-        const std::size_t begin = chunk * chunk_rays, end = begin + set_->chunk_size(chunk);
-        for (std::size_t i = begin; i < end; i += 16) {
-            for (int axis = 0; axis < 3; ++axis) {
-                __builtin_prefetch(&set_->org[axis][i]);
-                __builtin_prefetch(&set_->dir[axis][i]);
-            }
-            __builtin_prefetch(&t_[i], 1);
-            if (!primitive_.empty()) __builtin_prefetch(&primitive_[i], 1);
-            if (!tmax_.empty()) __builtin_prefetch(&tmax_[i]);
+        const std::size_t begin = chunk * chunk_rays, bytes = set_->chunk_size(chunk) * 4;
+        for (int axis = 0; axis < 3; ++axis) {
+            warm(&set_->org[axis][begin], bytes);
+            warm(&set_->dir[axis][begin], bytes);
         }
+        if (!tmax_.empty()) warm(&tmax_[begin], bytes);
+        if (!primitive_.empty()) warm(&primitive_[begin], bytes);
+        if (!occluded_.empty()) warm(&occluded_[begin], bytes / 4);
+        warm(&t_[begin], bytes);
     }
 
     void trace(std::size_t chunk) override {

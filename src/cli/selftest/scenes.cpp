@@ -106,9 +106,27 @@ glm::dvec3 random_target(const SceneArrays& scene, Random& random) {
     return q;
 }
 
-Rays random_rays(const SceneArrays& scene, std::uint64_t count, double farthest, Random& random) {
+Rays rays_to_lamp(const SceneArrays& scene, std::uint64_t count, Random& random) {
     Rays rays;
-    const int kind = random.below(8);
+    const double far = random.chance(0.3) ? random.magnitude(0.1, 30) : 1,
+                 length = random.chance(0.7) ? 1 : random.magnitude(0.1, 10);
+    const glm::dvec3 lamp = random_target(scene, random) * far, middle = random_target(scene, random);
+    const double spread = random.chance(0.3) ? random.magnitude(1e-3, 1) : 0;
+    const double blur = random.chance(0.5) ? random.magnitude(1e-7, 1e-3) : 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const glm::dvec3 past = spread > 0 ? middle + random.point(spread) : random_target(scene, random);
+        const glm::dvec3 end = lamp + random.point(blur);
+        const glm::dvec3 o = end + (past - end) * (random.chance(0.3) ? 1 : random.uniform(0.5, 3));
+        rays.add(o, (end - o) * length);
+        rays.add_range(0, static_cast<float>(1 / length));
+    }
+    return rays;
+}
+
+Rays random_rays(const SceneArrays& scene, std::uint64_t count, double farthest, Random& random) {
+    const int kind = random.below(9);
+    if (kind == 8) return rays_to_lamp(scene, count, random);
+    Rays rays;
     const bool ranged = random.chance(0.3);
     const glm::dvec3 eye = random.point(3), way = random.direction();
     const double length = random.chance(0.5) ? 1 : random.magnitude(1e-3, 1e3), cone = random.magnitude(1e-3, 1);

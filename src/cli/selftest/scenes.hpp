@@ -15,8 +15,12 @@ namespace lanecast::selftest {
 /// triangles.
 [[nodiscard]] SceneDescription random_scene(PrimitiveKind kind, Placing placing, int count, Random& random);
 
+/// Shadow rays: all end at one point, which may lie on a surface, or within up to 1e-3 of it, and pass points of others or start
+/// there.
+[[nodiscard]] Rays rays_to_lamp(const SceneArrays& scene, std::uint64_t count, Random& random);
+
 /// Rays of one of: a camera, a sun, everything, along the axes from lattice points, from up to `farthest` away, from one point at
-/// vertices and rims, from one surface to the next, diagonal. A third has ranges.
+/// vertices and rims, from one surface to the next, diagonal, to a lamp. A third has ranges.
 [[nodiscard]] Rays random_rays(const SceneArrays& scene, std::uint64_t count, double farthest, Random& random);
 
 /// A point on a primitive of the scene, often a vertex, an edge or a rim; anywhere if it has none that is bounded.

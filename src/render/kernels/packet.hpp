@@ -38,7 +38,7 @@ struct Packet {
     // 16 u (|org| + M), |org| its largest component, for a body's matrix turns the rounding of one into others, and M the scene's
     // largest coordinate. This covers the rounding of the slab test (6 u), that of the sheared vertices (3 u) and of the
     // quadrics' t: no box of a true hit is missed, at no cost per box (docs/numerics.md).
-    S org_near[3][stride];
+    S org_near[3][stride]; ///< with a common origin only the first vector's
     S org_far[3][stride];
     S rcp[3][stride];
     S shear[3][stride]; ///< (dir[kx], dir[ky], 1) / dir[kz]
@@ -53,6 +53,7 @@ struct Packet {
     Axes axes;
     bool negative[3];   ///< of the directions
     bool common_origin; ///< every ray starts at the same point
+    bool from_end;      ///< boxes are met from the point where every ray ends: see look_from_end
 
     // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
     S interval_near[3], interval_far[3];
@@ -99,12 +100,95 @@ void kill_lanes(Packet<F>& packet, std::uint32_t i, Mask<F> valid) {
     store(packet.t + i, select(valid, load<F>(packet.t + i), F(S(-1))));
 }
 
+/// Whether all of the first n rays start where ray 0 does.
+template <FloatBatch F>
+LANECAST_INLINE bool share_origin(const Packet<F>& packet, std::uint32_t n) {
+    Mask<F> same(true);
+    for (std::uint32_t i = 0; i < n; i += width<F>)
+        for (int axis = 0; axis < 3; ++axis) same = same & (load<F>(packet.org[axis] + i) == F(packet.org[axis][0]));
+    return all(same);
+}
+
+/// Fills the derived arrays of the first n rays, and the intervals. With `common` all start at one point, which is moved apart
+/// once; false if a ray among them is not valid.
+template <bool common, FloatBatch F>
+LANECAST_INLINE bool derive_rays(Packet<F>& packet, std::uint32_t n, float max_coordinate) {
+    using S = Scalar<F>;
+    const int kz = packet.axes.kz;
+    const F infinity(std::numeric_limits<S>::infinity());
+    // Along the direction of travel, so that both signs are one code: near planes bound from below, far planes from above.
+    F near_bound[3], far_bound[3], rcp_min[3], rcp_max[3], along[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        along[axis] = F(packet.negative[axis] ? S(-1) : S(1));
+        near_bound[axis] = -infinity;
+        far_bound[axis] = infinity;
+        rcp_min[axis] = infinity;
+        rcp_max[axis] = -infinity;
+    }
+    const auto move_apart = [&](std::uint32_t i) {
+        const F farthest =
+            max(max(abs(load<F>(packet.org[0] + i)), abs(load<F>(packet.org[1] + i))), abs(load<F>(packet.org[2] + i)));
+        const F apart_by = (farthest + F(S(max_coordinate))) * F(S(9.6e-7)); // 16 u
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; ++axis) {
+            const F o = load<F>(packet.org[axis] + i);
+            const F away = along[axis] * apart_by;
+            const F o_near = o + away, o_far = o - away;
+            store(packet.org_near[axis] + i, o_near);
+            store(packet.org_far[axis] + i, o_far);
+            near_bound[axis] = max(near_bound[axis], along[axis] * o_near);
+            far_bound[axis] = min(far_bound[axis], along[axis] * o_far);
+        }
+    };
+    if (common) move_apart(0);
+    F t_max(S(-1));
+    for (std::uint32_t i = 0; i < n; i += width<F>) {
+        // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
+        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) +
+                      (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
+                      (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
+        const F t = load<F>(packet.t + i);
+        const Mask<F> valid =
+            (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        if (!all(valid)) {
+            if (common) return false;
+            detail::kill_lanes(packet, i, valid);
+        }
+
+        store(packet.slot + i, Int<F>(-1));
+        const F dz = load<F>(packet.dir[kz] + i);
+        const F inv_dz = F(1) / dz;
+        store(packet.shear[0] + i, load<F>(packet.dir[packet.axes.kx] + i) * inv_dz);
+        store(packet.shear[1] + i, load<F>(packet.dir[packet.axes.ky] + i) * inv_dz);
+        store(packet.shear[2] + i, inv_dz);
+        // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
+        const F least = abs(dz) * F(S(8.7e-19));
+#pragma GCC unroll 3
+        for (int axis = 0; axis < 3; ++axis) {
+            const F d = load<F>(packet.dir[axis] + i);
+            const F rcp = axis == kz ? inv_dz : F(1) / copysign(max(abs(d), least), along[axis]);
+            store(packet.rcp[axis] + i, rcp);
+            rcp_min[axis] = min(rcp_min[axis], rcp);
+            rcp_max[axis] = max(rcp_max[axis], rcp);
+        }
+        if (!common) move_apart(i);
+        t_max = max(t_max, load<F>(packet.t + i));
+    }
+    packet.t_max = reduce_max(t_max);
+    for (int axis = 0; axis < 3; ++axis) {
+        packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
+        packet.rcp_max[axis] = reduce_max(rcp_max[axis]);
+        packet.interval_near[axis] = packet.negative[axis] ? -reduce_max(near_bound[axis]) : reduce_max(near_bound[axis]);
+        packet.interval_far[axis] = packet.negative[axis] ? -reduce_min(far_bound[axis]) : reduce_min(far_bound[axis]);
+    }
+    return true;
+}
+
 } // namespace detail
 
 /// Fills the derived arrays and intervals from org, dir, tmin, t, source of packet.count rays that share `key`.
 template <FloatBatch F>
 void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
-    using S = Scalar<F>;
     constexpr std::uint32_t W = width<F>;
     const std::uint32_t count = packet.count;
     packet.vectors = static_cast<int>((count + W - 1) / W);
@@ -121,72 +205,45 @@ void finish_packet(Packet<F>& packet, std::int32_t key, float max_coordinate) {
         packet.source[i] = no_source;
         packet.after[i] = -1;
     }
+    packet.common_origin = detail::share_origin(packet, padded) && detail::derive_rays<true>(packet, padded, max_coordinate);
+    if (!packet.common_origin) detail::derive_rays<false>(packet, padded, max_coordinate);
+    packet.from_end = false;
+    packet.first_tmax = packet.t[0];
+    packet.prints.common = Common::unknown;
+}
 
-    const auto [kx, ky, kz] = packet.axes;
-    const F largest = F(S(max_coordinate));
-    const F infinity(std::numeric_limits<S>::infinity());
-    // Along the direction of travel, so that both signs are one code: near planes bound from below, far planes from above.
-    F near_bound[3], far_bound[3], rcp_min[3], rcp_max[3];
-    F along[3], first_org[3];
+/// Where all rays end at one point, as shadow rays do at a lamp, boxes are met from there: with t less its limit, from -t to 0,
+/// instead of t, the intervals have one origin, and a packet needs one subtraction per plane. For rays whose t is their limit
+/// until they are answered.
+template <FloatBatch F>
+void look_from_end(Packet<F>& packet, float max_coordinate) {
+    using S = Scalar<F>;
+    if (packet.common_origin || !(packet.first_tmax < S(1e18))) return;
+    S end[3], reach(0);
     for (int axis = 0; axis < 3; ++axis) {
-        along[axis] = F(packet.negative[axis] ? S(-1) : S(1));
-        first_org[axis] = F(packet.org[axis][0]);
-        near_bound[axis] = -infinity;
-        far_bound[axis] = infinity;
-        rcp_min[axis] = infinity;
-        rcp_max[axis] = -infinity;
+        end[axis] = packet.org[axis][0] + packet.first_tmax * packet.dir[axis][0];
+        reach = max(abs(end[axis]), reach);
     }
-    F t_max(S(-1)), apart(0);
-    for (std::uint32_t i = 0; i < padded; i += W) {
-        // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
-        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) +
-                      (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
-                      (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
+    F off(0), farthest(0);
+    for (std::uint32_t i = 0; i < packet.count; i += width<F>) {
         const F t = load<F>(packet.t + i);
-        const Mask<F> valid =
-            (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
-        if (!all(valid)) detail::kill_lanes(packet, i, valid);
-
-        store(packet.slot + i, Int<F>(-1));
-        const F dz = load<F>(packet.dir[kz] + i);
-        const F inv_dz = F(1) / dz;
-        const F sx = load<F>(packet.dir[kx] + i) * inv_dz, sy = load<F>(packet.dir[ky] + i) * inv_dz;
-        store(packet.shear[0] + i, sx);
-        store(packet.shear[1] + i, sy);
-        store(packet.shear[2] + i, inv_dz);
-        // a direction component is at least 2^-60 of the largest, so that 0 * infinity cannot arise
-        const F least = abs(dz) * F(S(8.7e-19));
-        const F apart_by = (max(max(abs(load<F>(packet.org[0] + i)), abs(load<F>(packet.org[1] + i))),
-                                abs(load<F>(packet.org[2] + i))) +
-                            largest) *
-                           F(S(9.6e-7)); // 16 u
+        const Mask<F> open = t >= F(0);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F o = load<F>(packet.org[axis] + i);
-            const F d = load<F>(packet.dir[axis] + i);
-            const F away = along[axis] * apart_by;
-            const F rcp = axis == kz ? inv_dz : F(1) / copysign(max(abs(d), least), along[axis]);
-            const F o_near = o + away, o_far = o - away;
-            store(packet.rcp[axis] + i, rcp);
-            store(packet.org_near[axis] + i, o_near);
-            store(packet.org_far[axis] + i, o_far);
-            apart = max(abs(o - first_org[axis]), apart);
-            rcp_min[axis] = min(rcp_min[axis], rcp);
-            rcp_max[axis] = max(rcp_max[axis], rcp);
-            near_bound[axis] = max(near_bound[axis], along[axis] * o_near);
-            far_bound[axis] = min(far_bound[axis], along[axis] * o_far);
+            off = max(off, select(open, abs(o + t * load<F>(packet.dir[axis] + i) - F(end[axis])), F(0)));
+            farthest = max(farthest, abs(o));
         }
-        t_max = max(t_max, load<F>(packet.t + i));
     }
-    packet.t_max = reduce_max(t_max);
-    packet.first_tmax = packet.t[0];
-    packet.prints.common = Common::unknown;
-    packet.common_origin = reduce_max(apart) == S(0);
+    const S M(max_coordinate);
+    reach = max(reach, reduce_max(farthest));
+    const S slack = reduce_max(off) + S(4.8e-7) * reach; // 8 u: the rounding of `off`
+    if (!(slack <= S(1e-4) * M) || !(reach <= S(8) * M)) return;
+    packet.from_end = true;
     for (int axis = 0; axis < 3; ++axis) {
-        packet.rcp_min[axis] = reduce_min(rcp_min[axis]);
-        packet.rcp_max[axis] = reduce_max(rcp_max[axis]);
-        packet.interval_near[axis] = packet.negative[axis] ? -reduce_max(near_bound[axis]) : reduce_max(near_bound[axis]);
-        packet.interval_far[axis] = packet.negative[axis] ? -reduce_min(far_bound[axis]) : reduce_min(far_bound[axis]);
+        const S away = (S(9.6e-7) * (reach + M) + slack) * (packet.negative[axis] ? S(-1) : S(1));
+        packet.interval_near[axis] = end[axis] + away;
+        packet.interval_far[axis] = end[axis] - away;
     }
 }
 

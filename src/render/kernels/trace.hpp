@@ -28,15 +28,21 @@ LANECAST_INLINE std::uint32_t sort_by_key(TraceScratch<F>& scratch, const RayBat
     std::int32_t ascending[W];
     for (std::uint32_t lane = 0; lane < W; ++lane) ascending[lane] = static_cast<std::int32_t>(lane);
     Int<F> index = load_int<F>(ascending);
-    std::uint32_t keys = 0;
+    std::uint32_t keys = 0, latest = 0;
     for (std::uint32_t i = 0; i < n; i += W) {
-        for_each_unique<F>(packet_key<F>(load<F>(rays.dir, i)), first_lanes<F>(n - i), [&](std::int32_t key, Mask<F> lanes) {
-            const auto k = static_cast<std::uint32_t>(key);
-            if ((keys >> k & 1u) == 0) counts[k] = 0;
-            keys |= 1u << k;
-            compress_store_int<F>(scratch.rays_of[k] + counts[k], index, lanes);
-            counts[k] += count_bits(bits(lanes));
-        });
+        const Int<F> key_of = packet_key<F>(load<F>(rays.dir, i));
+        if (keys != 0 && i + W <= n && all(key_of == Int<F>(static_cast<std::int32_t>(latest)))) { // coherent rays: as before
+            store(scratch.rays_of[latest] + counts[latest], index);
+            counts[latest] += W;
+        } else {
+            for_each_unique<F>(key_of, first_lanes<F>(n - i), [&](std::int32_t key, Mask<F> lanes) {
+                latest = static_cast<std::uint32_t>(key);
+                if ((keys >> latest & 1u) == 0) counts[latest] = 0;
+                keys |= 1u << latest;
+                compress_store_int<F>(scratch.rays_of[latest] + counts[latest], index, lanes);
+                counts[latest] += count_bits(bits(lanes));
+            });
+        }
         index = index + Int<F>(static_cast<std::int32_t>(W));
     }
     return keys;

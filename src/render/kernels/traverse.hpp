@@ -25,7 +25,7 @@ LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhN
     using E = Eight<F>;
     std::uint32_t entered = 0;
     for (int c = 0; c < 8; c += width<E>) {
-        E enter(S(0)), leave(packet.t_max);
+        E enter(packet.from_end ? -packet.t_max : S(0)), leave(packet.from_end ? S(0) : packet.t_max);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const E near_plane = load_eight<E>((packet.negative[axis] ? node.hi[axis] : node.lo[axis]) + c);
@@ -54,9 +54,8 @@ LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& n
     std::uint32_t lanes_of[packet_vectors];
     std::uint32_t count = 0;
     Entering entering{};
-    const auto test = [&](std::uint32_t vector, const F(&near)[3], const F(&far)[3]) {
+    const auto test = [&](std::uint32_t vector, const F(&near)[3], const F(&far)[3], F enter, F leave) {
         const std::uint32_t i = vector * width<F>;
-        F enter(0), leave = load<F>(packet.t + i);
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F rcp = load<F>(packet.rcp[axis] + i);
@@ -68,13 +67,18 @@ LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& n
         count += count_bits(lanes);
         entering.vectors |= (lanes != 0 ? 1u : 0u) << vector;
     };
-    if (packet.common_origin) { // one subtraction for all
+    if (packet.common_origin || packet.from_end) { // one subtraction for all
         F near[3], far[3];
         for (int axis = 0; axis < 3; ++axis) {
-            near[axis] = near_plane[axis] - load<F>(packet.org_near[axis]);
-            far[axis] = far_plane[axis] - load<F>(packet.org_far[axis]);
+            near[axis] = near_plane[axis] - F(packet.interval_near[axis]);
+            far[axis] = far_plane[axis] - F(packet.interval_far[axis]);
         }
-        for_each_bit(vectors, [&](std::uint32_t vector) { test(vector, near, far); });
+        if (packet.from_end)
+            for_each_bit(vectors,
+                         [&](std::uint32_t vector) { test(vector, near, far, -load<F>(packet.t + vector * width<F>), F(0)); });
+        else
+            for_each_bit(vectors,
+                         [&](std::uint32_t vector) { test(vector, near, far, F(0), load<F>(packet.t + vector * width<F>)); });
     } else {
         for_each_bit(vectors, [&](std::uint32_t vector) {
             const std::uint32_t i = vector * width<F>;
@@ -83,7 +87,7 @@ LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& n
                 near[axis] = near_plane[axis] - load<F>(packet.org_near[axis] + i);
                 far[axis] = far_plane[axis] - load<F>(packet.org_far[axis] + i);
             }
-            test(vector, near, far);
+            test(vector, near, far, F(0), load<F>(packet.t + i));
         });
     }
     list_few<F>(entering, lanes_of, count);
@@ -142,6 +146,7 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders
         try_occluders(scene, packet, *occluders, open);
         if (packet.t_max < Scalar<F>(0)) return last;
     }
+    if constexpr (query == Query::any) look_from_end(packet, scene.max_coordinate);
     const bool from_far = far_first<query>(packet.common_origin);
     StackEntry<F> stack[stack_capacity];
     int top = 0;

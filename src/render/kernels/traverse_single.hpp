@@ -168,6 +168,7 @@ LANECAST_INLINE std::uint32_t enter_children(const SingleRay<F>& ray, const BvhN
     using S = Scalar<F>;
     using E = Eight<F>;
     const Packet<F>& packet = *ray.packet;
+    const std::uint32_t at = packet.common_origin ? 0 : ray.i;
     const auto* const bytes = reinterpret_cast<const unsigned char*>(&node);
     std::uint32_t entered = 0;
     for (int c = 0; c < 8; c += width<E>) {
@@ -177,8 +178,8 @@ LANECAST_INLINE std::uint32_t enter_children(const SingleRay<F>& ray, const BvhN
             const E near_plane = load_eight<E>(reinterpret_cast<const float*>(bytes + planes.near[axis]) + c);
             const E far_plane = load_eight<E>(reinterpret_cast<const float*>(bytes + planes.far[axis]) + c);
             const E rcp(packet.rcp[axis][ray.i]);
-            enter = max((near_plane - E(packet.org_near[axis][ray.i])) * rcp, enter);
-            leave = min((far_plane - E(packet.org_far[axis][ray.i])) * rcp, leave);
+            enter = max((near_plane - E(packet.org_near[axis][at])) * rcp, enter);
+            leave = min((far_plane - E(packet.org_far[axis][at])) * rcp, leave);
         }
         store(near + c, enter);
         entered |= bits(enter <= leave) << c;
