@@ -136,17 +136,25 @@ void choose_near_edges(PixelBatch<F>& pixels, const Tile& region, Scalar<F> limi
         for (int c = 0; c < 3; ++c) at.seen[c][place(i)] = pixels.refined[c][i];
     find_bends(at, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row * rows), limit);
 
-    for (std::int32_t i = 0; i < row * rows; ++i) at.near[i] = 0;
-    const auto bent_in_row = [](const std::uint8_t* p) { return p[-1] | p[0] | p[1]; };
-    for (std::int32_t y = edge_border; y < rows - edge_border; ++y)
-        for (std::int32_t i = y * row + edge_border; i < (y + 1) * row - edge_border; ++i)
-            at.near[i] = static_cast<std::uint8_t>(bent_in_row(at.bent + i - row) | bent_in_row(at.bent + i) |
-                                                   bent_in_row(at.bent + i + row));
-    pixels.chosen_count = 0;
-    for (std::uint32_t i = 0; i < pixels.count; ++i) {
-        pixels.chosen[pixels.chosen_count] = i;
-        pixels.chosen_count += at.near[place(i)];
+    // bytes may alias anything: without pointers of their own the loops are not vectorised
+    const std::uint8_t* const bent = at.bent;
+    std::uint8_t* const near = at.near;
+    for (std::int32_t i = 0; i < row * rows; ++i) near[i] = 0;
+    for (std::int32_t y = edge_border; y < rows - edge_border; ++y) {
+        const std::int32_t end = (y + 1) * row - edge_border;
+#pragma GCC ivdep
+        for (std::int32_t i = y * row + edge_border; i < end; ++i) {
+            const std::uint8_t *const above = bent + i - row, *const below = bent + i + row;
+            near[i] = static_cast<std::uint8_t>(above[-1] | above[0] | above[1] | bent[i - 1] | bent[i] | bent[i + 1] |
+                                                below[-1] | below[0] | below[1]);
+        }
     }
+    std::uint32_t chosen_count = 0;
+    for (std::uint32_t i = 0; i < pixels.count; ++i) {
+        pixels.chosen[chosen_count] = i;
+        chosen_count += near[place(i)];
+    }
+    pixels.chosen_count = chosen_count;
 }
 
 /// Where pixel i of the region is on the film; negative for the border around the tile.
