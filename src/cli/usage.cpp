@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* exit_codes = R"(Exit codes:
   0    done
-  1    diff found a difference, selftest a target that is missed, or an internal failure
+  1    diff found a difference, selftest a missed target, bench --features another pixel; or an internal failure
   2    wrong usage of the command line, or no settings keep --max-error or --max-time
   3    the scene cannot be read or is not valid
   4    a mesh or a picture cannot be read or is not valid

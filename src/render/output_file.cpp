@@ -30,15 +30,23 @@ struct Target {
     bool exists = false;
 };
 
+/// Where a chain of symbolic links leads that ends at no file. One that leads in a circle is left to `stat`.
+[[nodiscard]] std::filesystem::path follow_links(std::filesystem::path path) {
+    std::error_code error;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(path, error); ++links)
+        path = path.parent_path() / std::filesystem::read_symlink(path, error);
+    return path;
+}
+
 [[nodiscard]] Target resolve_target(const std::filesystem::path& path) {
     if (path.empty()) throw output_error(path, "the file name is empty");
     std::error_code error;
     const std::filesystem::path canonical = std::filesystem::canonical(path, error);
-    Target target{error ? path : canonical};
+    Target target{error ? follow_links(path) : canonical};
     struct stat status {};
     if (::stat(target.path.c_str(), &status) != 0) {
         if (errno == ENOENT && path.has_filename()) {
-            const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : ".";
+            const std::filesystem::path directory = target.path.has_parent_path() ? target.path.parent_path() : ".";
             if (!std::filesystem::exists(directory, error))
                 throw output_error(path, "the directory " + printable_path(directory) + " does not exist");
             return target;

@@ -48,6 +48,7 @@ TEST_CASE("the cases are listed; what does not exist is refused") {
     for (int id = 1; id <= 23; ++id) CHECK(has(list.out, "N" + std::to_string(id) + " ") == (id != 22)); // there is no N22
     CHECK(run({"selftest", "--only", "N22"}).code == 2);
     CHECK(run({"selftest", "--isa", "neon"}).code == 2);
+    CHECK(run({"selftest", "--isa", "auto", "--precision", "balanced", "--only", "N1", "--rays", "1000"}).code == 0);
     CHECK(run({"selftest", "--precision", "exact"}).code == 2);
     CHECK(run({"selftest", "--isa", "sse4.2", "--precision", "fast"}).code != 0);
     CHECK(run({"selftest", "--only", "N21", "--rays", "100", "--json", "/nowhere/out.json"}).code == 5);

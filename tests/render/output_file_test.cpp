@@ -235,6 +235,16 @@ TEST_CASE("a new file has the usual permissions, a replaced one keeps its own, a
     write_whole(directory.path / "link", "through");
     CHECK(std::filesystem::is_symlink(directory.path / "link"));
     CHECK(content_of(directory.path / "sub" / "real") == "through");
+    std::filesystem::create_symlink("sub/new", directory.path / "to_nothing");
+    std::filesystem::create_symlink("to_nothing", directory.path / "to_link");
+    write_whole(directory.path / "to_link", "made");
+    CHECK(std::filesystem::is_symlink(directory.path / "to_link"));
+    CHECK(std::filesystem::is_symlink(directory.path / "to_nothing"));
+    CHECK(content_of(directory.path / "sub" / "new") == "made");
+    std::filesystem::create_symlink("circle", directory.path / "circle");
+    CHECK_THROWS_AS(write_whole(directory.path / "circle", "x"), Error);
+    std::filesystem::create_symlink("missing/new", directory.path / "astray");
+    CHECK_THROWS_AS(write_whole(directory.path / "astray", "x"), Error);
     const auto long_name = directory.path / std::string(255, 'n');
     write_whole(long_name, "z");
     CHECK(content_of(long_name) == "z");

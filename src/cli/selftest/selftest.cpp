@@ -36,8 +36,6 @@ struct SelftestRequest {
 /// Those of this build that this CPU runs, the slowest first.
 std::vector<const KernelTable*> chosen_kernels(const SelftestRequest& request) {
     std::vector<const KernelTable*> tables;
-    for (const std::string& isa : request.isas)
-        static_cast<void>(find_kernels(isa, Precision::balanced)); // names that are not known
     const auto wanted = [](const std::vector<std::string>& names, std::string_view name) {
         return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
     };
@@ -129,11 +127,13 @@ int run_beside_peer(SelftestRequest request) {
     return static_cast<int>(ExitCode::done);
 }
 
-int run(const SelftestRequest& request) {
+int run(SelftestRequest request) {
     if (request.list) {
         print_result(list_of_cases(known_cases(request)));
         return static_cast<int>(ExitCode::done);
     }
+    for (std::string& isa : request.isas)
+        isa = find_kernels(isa, Precision::balanced).isa; // "auto", and names that are not known
     if (!request.peer.empty()) return run_beside_peer(request);
     const std::vector<const KernelTable*> kernels = chosen_kernels(request);
     const std::string what = describe(request, kernels);
@@ -180,7 +180,7 @@ void add_selftest(CLI::App& app, Command& chosen) {
     command->add_option("--rays", request->rays, "Rays per case, about; scalar kernels get a 32nd of a share")
         ->check(CLI::Range(1.0, 1e15))
         ->type_name("N");
-    command->add_option("--only", request->only, "Cases: N1 to N23; default: all")->delimiter(',')->type_name("LIST");
+    command->add_option("--only", request->only, "Cases: N1 to N21, N23; default: all")->delimiter(',')->type_name("LIST");
     command->add_option("--isa", request->isas, "Instruction sets; default: all of this build and CPU")
         ->delimiter(',')
         ->type_name("LIST");
