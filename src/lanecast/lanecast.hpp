@@ -35,7 +35,7 @@ inline constexpr std::uint32_t no_hit = 0xffffffffu;
 enum class Coherence { unknown, coherent, incoherent };
 
 /// Rays as a structure of arrays: each pointer to `count` floats of any alignment. Rays with a NaN, an infinite origin or
-/// direction or a zero direction hit nothing.
+/// direction, a zero direction, or an origin 1e34 times the scene's size away hit nothing.
 struct RayArrays {
     const float* org_x = nullptr;
     const float* org_y = nullptr;

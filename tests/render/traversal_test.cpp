@@ -227,6 +227,31 @@ TEST_CASE("rays that are not finite or have no direction miss, and change no oth
     }
 }
 
+TEST_CASE("rays from beyond everything and with endless directions end, and change no other ray") {
+    Random random(10);
+    for (int n = 0; n < cases(100); ++n) {
+        const SceneArrays arrays = flatten(random_scene(random, 1 + random.below(60)), RenderSettings{}, 1);
+        const Rays good = random_rays(random, arrays);
+        Rays far = good;
+        std::vector<bool> is_far(good.size());
+        for (std::size_t i = 0; i < good.size(); ++i) {
+            if (!(is_far[i] = random.chance(n % 3 == 0 ? 1.0 : 0.2))) continue;
+            const auto size = static_cast<float>(std::exp(random.uniform(std::log(1e30), std::log(3.4e38))));
+            for (int axis = 0; axis < 3; ++axis) {
+                const float end = random.chance(0.3) ? 0.0f : random.chance(0.5) ? size : -size;
+                (n % 2 == 0 ? far.org : far.dir)[axis][i] = end;
+            }
+        }
+        for (const KernelTable* kernels : usable_kernels())
+            for (const Query what : {Query::closest, Query::any}) {
+                const Hits before = ask(*kernels, view(arrays), good, what);
+                const Hits after = ask(*kernels, view(arrays), far, what);
+                for (std::size_t i = 0; i < good.size(); ++i)
+                    if (!is_far[i]) REQUIRE((after.slot[i] >= 0) == (before.slot[i] >= 0));
+            }
+    }
+}
+
 TEST_CASE("a ray along a plane misses it, from either side and on it") {
     for (const double height : {-1.0, 0.0, 1.0})
         for (const double side : {-1.0, 1.0})

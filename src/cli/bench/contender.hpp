@@ -15,10 +15,11 @@ struct HitList {
     std::vector<std::uint32_t> primitive; ///< closest: triangle; no_hit for a miss
 };
 
-/// Reads the first byte of every cache line, so that they are at hand when the clock starts: a prefetch may still be on its way.
+/// Reads a byte of every cache line, so that they are at hand when the clock starts: a prefetch may still be on its way.
 inline void warm(const void* first, std::size_t bytes) {
-    const auto* const line = static_cast<const volatile unsigned char*>(first);
-    for (std::size_t i = 0; i < bytes; i += 64) static_cast<void>(line[i]);
+    const auto* const at = static_cast<const volatile unsigned char*>(first);
+    for (std::size_t i = 0; i < bytes; i += 64) static_cast<void>(at[i]);
+    if (bytes > 0) static_cast<void>(at[bytes - 1]);
 }
 
 class Contender {

@@ -14,21 +14,24 @@ public:
     void prepare(const RaySet& set) override {
         set_ = &set;
         t_.assign(set.size(), 0);
-        if (set.query == Query::closest) primitive_.assign(set.size(), 0);
-        if (set.query == Query::any) occluded_.assign(set.size(), 0);
+        primitive_.assign(set.query == Query::closest ? set.size() : 0, 0);
+        occluded_.assign(set.query == Query::any ? set.size() : 0, 0);
         tmax_.assign(set.tmax < std::numeric_limits<float>::infinity() ? set.size() : 0, set.tmax);
     }
 
     void reset(std::size_t chunk) override {
-        const std::size_t begin = chunk * chunk_rays, bytes = set_->chunk_size(chunk) * 4;
+        const std::size_t begin = chunk * chunk_rays, bytes = set_->chunk_size(chunk) * sizeof(float);
         for (int axis = 0; axis < 3; ++axis) {
-            warm(&set_->org[axis][begin], bytes);
+            if (!set_->common_origin) warm(&set_->org[axis][begin], bytes);
             warm(&set_->dir[axis][begin], bytes);
         }
         if (!tmax_.empty()) warm(&tmax_[begin], bytes);
-        if (!primitive_.empty()) warm(&primitive_[begin], bytes);
-        if (!occluded_.empty()) warm(&occluded_[begin], bytes / 4);
-        warm(&t_[begin], bytes);
+        if (set_->query == Query::any) {
+            warm(&occluded_[begin], set_->chunk_size(chunk));
+        } else {
+            warm(&t_[begin], bytes);
+            warm(&primitive_[begin], bytes);
+        }
     }
 
     void trace(std::size_t chunk) override {

@@ -55,7 +55,8 @@ struct Packet {
     bool common_origin; ///< every ray starts at the same point
     bool from_end;      ///< boxes are met from the point where every ray ends: see look_from_end
 
-    // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above.
+    // Over all rays: the origins and reciprocal directions that bound entry from below and exit from above. With from_end the
+    // point where they end instead of the origins.
     S interval_near[3], interval_far[3];
     S rcp_min[3], rcp_max[3];
     S t_max;      ///< largest t
@@ -74,6 +75,10 @@ struct Packet {
 };
 
 inline constexpr std::uint32_t packet_keys = 24;
+
+/// Of a ray's origin and direction together, the sum of all |components|. Unused children of nodes have boxes at 1e30, the wrong
+/// way round, which an origin that is moved apart by less cannot enter.
+inline constexpr float largest_ray = 1e34f;
 
 /// Octant in bits 0 to 2 (sign bits of x, y, z), dominant axis in bits 3 and 4: rays of one key may share a packet.
 template <FloatBatch F>
@@ -143,13 +148,13 @@ LANECAST_INLINE bool derive_rays(Packet<F>& packet, std::uint32_t n, float max_c
     if (common) move_apart(0);
     F t_max(S(-1));
     for (std::uint32_t i = 0; i < n; i += width<F>) {
-        // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane.
-        const F sum = (load<F>(packet.org[0] + i) + load<F>(packet.org[1] + i)) +
-                      (load<F>(packet.org[2] + i) + load<F>(packet.dir[0] + i)) +
-                      (load<F>(packet.dir[1] + i) + load<F>(packet.dir[2] + i));
+        // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane. So does
+        // one whose roundings exceed the boxes of nodes' unused children, and one whose reciprocals vanish.
+        const F sum = (abs(load<F>(packet.org[0] + i)) + abs(load<F>(packet.org[1] + i))) +
+                      (abs(load<F>(packet.org[2] + i)) + abs(load<F>(packet.dir[0] + i))) +
+                      (abs(load<F>(packet.dir[1] + i)) + abs(load<F>(packet.dir[2] + i)));
         const F t = load<F>(packet.t + i);
-        const Mask<F> valid =
-            (abs(sum) <= F(std::numeric_limits<S>::max())) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        const Mask<F> valid = (sum <= F(S(largest_ray))) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
         if (!all(valid)) {
             if (common) return false;
             detail::kill_lanes(packet, i, valid);
@@ -231,7 +236,7 @@ void look_from_end(Packet<F>& packet, float max_coordinate) {
 #pragma GCC unroll 3
         for (int axis = 0; axis < 3; ++axis) {
             const F o = load<F>(packet.org[axis] + i);
-            off = max(off, select(open, abs(o + t * load<F>(packet.dir[axis] + i) - F(end[axis])), F(0)));
+            off = max(select(open, abs(o + t * load<F>(packet.dir[axis] + i) - F(end[axis])), F(0)), off); // infinity stays
             farthest = max(farthest, abs(o));
         }
     }

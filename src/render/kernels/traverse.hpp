@@ -9,7 +9,7 @@ namespace lanecast::inline LANECAST_ISA {
 template <FloatBatch F>
 struct StackEntry {
     std::uint64_t child;
-    Scalar<F> near; ///< no ray of the packet enters before
+    Scalar<F> near; ///< no ray of the packet enters before; from_end: of t less its limit, so at most 0
     Entering rays;
 };
 
