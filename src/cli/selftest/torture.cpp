@@ -122,7 +122,7 @@ void test_torture(const Block& block, Tally& tally) {
 
 namespace {
 
-/// One ray in four becomes none: NaN, infinities, no direction.
+/// One ray in four becomes none: NaN, infinities, no direction, or numbers beyond the range of rays.
 std::vector<bool> spoil(Rays& rays, Random& random) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     std::vector<bool> is_bad(rays.size());
@@ -130,11 +130,14 @@ std::vector<bool> spoil(Rays& rays, Random& random) {
         is_bad[i] = random.chance(0.25);
         if (!is_bad[i]) continue;
         const float what = random.chance(0.5) ? nan : random.chance(0.5) ? infinity : -infinity;
-        const int axis = random.below(3), kind = random.below(3);
+        const int axis = random.below(3), kind = random.below(4);
         if (kind == 0) rays.org[axis][i] = what;
         if (kind == 1) rays.dir[axis][i] = what;
         if (kind == 2)
             for (auto& component : rays.dir) component[i] = random.chance(0.5) ? 0.0f : -0.0f;
+        if (kind == 3)
+            (random.chance(0.5) ? rays.org : rays.dir)[axis][i] =
+                static_cast<float>(random.magnitude(1e35, 3e38) * (random.chance(0.5) ? 1 : -1));
     }
     return is_bad;
 }
