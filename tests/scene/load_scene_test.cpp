@@ -32,6 +32,17 @@ std::string error_of(const std::string& text, const LoadOptions& options = {}) {
 
 } // namespace
 
+TEST_CASE("without look_at the camera looks down -z, wherever it is") {
+    for (const std::string position : {"[0, 0, 0]", "[0, 0, -1]", "[3, -2, 7]", "[1e6, 1e6, 1e-6]"}) {
+        const std::string text = R"({"camera": {"position": )" + position + R"(}, "objects": [], "lights": []})";
+        const Camera camera = parse_scene(text, "c.json", {}).description.camera;
+        const glm::dvec3 view = camera.look_at - camera.position;
+        CHECK(view.x == 0);
+        CHECK(view.y == 0);
+        CHECK(view.z < 0);
+    }
+}
+
 TEST_CASE("comment keys are silent everywhere, even repeated") {
     const std::string comments =
         R"("_a": {"radius": [[[]]], "radius": 1}, "comment": -1, "$schema": "scene.schema.json", "_a": 2, "comment": null)";
