@@ -90,11 +90,16 @@ LANECAST_INLINE void write_distances(const RayStream& stream, std::uint32_t begi
     if (stream.tmax != nullptr) {
         const float* const tmax = stream.tmax + begin; // may be `to`
 #pragma GCC ivdep
-        for (std::uint32_t i = 0; i < n; ++i) to[i] = slot[i] < 0 ? tmax[i] : static_cast<float>(from[i] * inverse);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const auto t = static_cast<float>(from[i] * inverse);
+            to[i] = slot[i] < 0 ? tmax[i] : t;
+        }
     } else {
 #pragma GCC ivdep
-        for (std::uint32_t i = 0; i < n; ++i)
-            to[i] = slot[i] < 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(from[i] * inverse);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const auto t = static_cast<float>(from[i] * inverse); // outside of the condition, or g++ 12 waits for it in memory
+            to[i] = slot[i] < 0 ? std::numeric_limits<float>::infinity() : t;
+        }
     }
 }
 
@@ -115,7 +120,7 @@ LANECAST_INLINE void write_hits(const SceneView& scene, const RayStream& stream,
         return;
     }
     if (stream.t != nullptr) write_distances(stream, begin, n, units, rays);
-    if (stream.object != nullptr || stream.primitive != nullptr) write_names(scene, stream, begin, n, slot);
+    if (stream.object != nullptr || stream.primitive != nullptr) write_names<F>(scene, stream, begin, n, slot);
     if (stream.normal[0] != nullptr || stream.u != nullptr) write_attributes(scene, stream, begin, n, rays);
 }
 

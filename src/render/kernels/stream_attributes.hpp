@@ -10,36 +10,42 @@
 namespace lanecast::inline LANECAST_ISA {
 namespace detail {
 
-/// id_of(slot) for hits. Without a branch: slot 0 is looked up for a miss.
-template <class Id>
-LANECAST_INLINE void write_ids(std::uint32_t* to, const std::int32_t* slot, std::uint32_t n, Id&& id_of) {
-#pragma GCC ivdep
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t id = id_of(slot[i] < 0 ? 0 : slot[i]);
-        to[i] = slot[i] < 0 ? no_object : id;
-    }
+/// Stores the first n lanes.
+template <FloatBatch F>
+LANECAST_INLINE void store_ids(std::uint32_t* to, Int<F> ids, std::uint32_t n) {
+    alignas(64) std::int32_t lanes[width<F>];
+    const bool whole = n >= static_cast<std::uint32_t>(width<F>);
+    store(whole ? reinterpret_cast<std::int32_t*>(to) : lanes, ids);
+    if (!whole) __builtin_memcpy(to, lanes, n * sizeof lanes[0]);
 }
 
+template <FloatBatch F>
 LANECAST_INLINE void write_names(const SceneView& scene, const RayStream& stream, std::uint32_t begin, std::uint32_t n,
-                                 const std::int32_t* slot) {
-    const bool empty = scene.first_slot[primitive_kind_count] == 0;
-    const std::uint32_t *const object = scene.object, *const scene_id = scene.scene_id;
-    const StreamObject* const objects = stream.objects;
-    if (stream.object != nullptr) {
-        std::uint32_t* const to = stream.object + begin;
-        if (empty || objects == nullptr)
-            write_ids(to, slot, n, [](std::int32_t) { return 0u; });
-        else
-            write_ids(to, slot, n, [=](std::int32_t s) { return object[s]; });
-    }
-    if (stream.primitive != nullptr) {
-        std::uint32_t* const to = stream.primitive + begin;
-        if (empty)
-            write_ids(to, slot, n, [](std::int32_t) { return 0u; });
-        else if (objects == nullptr)
-            write_ids(to, slot, n, [=](std::int32_t s) { return scene_id[s]; });
-        else
-            write_ids(to, slot, n, [=](std::int32_t s) { return scene_id[s] - objects[object[s]].first_scene_id; });
+                                 const std::int32_t* slots) {
+    constexpr std::uint32_t W = width<F>;
+    const Int<F> none_found(static_cast<std::int32_t>(no_object));
+    for (std::uint32_t i = 0; i < n; i += W) {
+        const Int<F> slot = load_int<F>(slots + i);
+        const Mask<F> found = first_lanes<F>(n - i) & (slot > Int<F>(-1));
+        Int<F> object = none_found, primitive = none_found;
+        if (any(found)) {
+            // Lanes of coherent rays have often hit one primitive. AVX-512 1.02, AVX2 1.0; of four lanes to ask costs more.
+            const bool same = W >= 8 && all(found & (slot == Int<F>(slots[i])));
+            const auto look_up = [&](const std::uint32_t* table, Int<F> at) {
+                if (same) return Int<F>(static_cast<std::int32_t>(table[slots[i]]));
+                return gather(reinterpret_cast<const std::int32_t*>(table), at);
+            };
+            const Int<F> at = select(found, slot, Int<F>(0));
+            Int<F> number = look_up(scene.scene_id, at), owner(0);
+            if (stream.objects != nullptr) {
+                owner = look_up(scene.object, at);
+                number = number - gather(reinterpret_cast<const std::int32_t*>(&stream.objects->first_scene_id), owner + owner);
+            }
+            object = select(found, owner, none_found);
+            primitive = select(found, number, none_found);
+        }
+        if (stream.object != nullptr) store_ids<F>(stream.object + begin + i, object, n - i);
+        if (stream.primitive != nullptr) store_ids<F>(stream.primitive + begin + i, primitive, n - i);
     }
 }
 
