@@ -95,6 +95,7 @@ struct EightFloat {
     LANECAST_INLINE friend EightMask operator>(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GT_OQ); }
     LANECAST_INLINE friend EightMask operator<=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_LE_OQ); }
     LANECAST_INLINE friend EightMask operator>=(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_GE_OQ); }
+    LANECAST_INLINE friend EightMask operator==(EightFloat a, EightFloat b) { return _mm256_cmp_ps_mask(a.r, b.r, _CMP_EQ_OQ); }
 };
 #if LANECAST_FAST
 LANECAST_INLINE EightFloat fused(EightFloat a, EightFloat b, EightFloat c) { return _mm256_fmadd_ps(a.r, b.r, c.r); }
