@@ -43,7 +43,8 @@ LANECAST_INLINE void take(const SceneView& scene, Packet<F>& packet, std::uint32
         store(packet.t + i, select(found, F(S(-1)), best));
     } else {
         const Mask<F> tied = found & (t == best);
-        if (any(tied)) found = (found & !tied) | first_of_ties<F>(scene, packet.slot + i, bits(tied), slot);
+        if (any(tied)) [[unlikely]]
+            found = (found & !tied) | first_of_ties<F>(scene, packet.slot + i, bits(tied), slot);
         store(packet.t + i, select(found, t, best));
     }
     store(packet.slot + i, select(found, Int<F>(static_cast<std::int32_t>(slot)), load_int<F>(packet.slot + i)));
@@ -120,11 +121,12 @@ LANECAST_INLINE bool hit_triangle(const SceneView& scene, Packet<F>& packet, std
     const TriangleEdges<F> edges = triangle_edges(shear, from_org.a, from_org.b, from_org.c);
     if (!candidate && none(edges.inside)) return false;
     const F t = triangle_t(shear.z, edges);
-    const Mask<F> nearer = edges.inside & (t <= load<F>(packet.t + i)) & (t >= load<F>(packet.tmin + i));
-    if (!candidate && none(nearer)) return false;
     const std::uint32_t slot = slots[lane];
+    const Mask<F> nearer =
+        edges.inside & (t <= load<F>(packet.t + i)) & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0);
+    if (!candidate && none(nearer)) return false;
     const Mask<F> self = load_int<F>(packet.source + i) == Int<F>(source_outward(static_cast<std::int32_t>(slot)));
-    const Mask<F> found = nearer & later<query>(packet, i, t, query == Query::next ? scene.scene_id[slot] : 0) & !self;
+    const Mask<F> found = nearer & !self;
     if (!candidate && none(found)) return false;
     take<query>(scene, packet, i, t, slot, found);
     return any(found);
