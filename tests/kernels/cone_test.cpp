@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 using namespace lanecast;
@@ -75,12 +76,16 @@ struct Score {
     }
 };
 
+/// `aim` gives a ray's origin and target in the cone's space, but for the rounding of its turn.
 template <class Aim>
-Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
+Score score_cone(const AffineRecord& record, int rays, std::uint64_t seed, Aim&& aim) {
     Lottery random(seed);
     const FlushDenormals flush;
-    const AffineRecord record = own_space(static_cast<float>(taper_));
     const auto taper = static_cast<S>(record.taper);
+    const float* const turn = record.object_from_world;
+    const auto to_world = [&](const glm::dvec3& p, int axis) {
+        return p.x * turn[axis] + p.y * turn[3 + axis] + p.z * turn[6 + axis];
+    };
     Score score;
     for (int n = 0; n < rays; n += static_cast<int>(W)) {
         alignas(64) S org[3][W], dir[3][W], t[2][W];
@@ -88,8 +93,9 @@ Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
             glm::dvec3 o, target;
             aim(random, o, target);
             for (int axis = 0; axis < 3; ++axis) {
-                org[axis][lane] = static_cast<S>(static_cast<float>(o[axis]));
-                dir[axis][lane] = static_cast<S>(static_cast<float>(target[axis] - static_cast<double>(org[axis][lane])));
+                org[axis][lane] = static_cast<S>(static_cast<float>(to_world(o, axis)));
+                dir[axis][lane] =
+                    static_cast<S>(static_cast<float>(to_world(target, axis) - static_cast<double>(org[axis][lane])));
             }
         }
         const Vec3<F> o{load<F>(org[0]), load<F>(org[1]), load<F>(org[2])}, d{load<F>(dir[0]), load<F>(dir[1]), load<F>(dir[2])};
@@ -98,7 +104,14 @@ Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
         lanecast::store(t[1], crossing.ends.t1);
         for (std::uint32_t lane = 0; lane < W; ++lane) {
             ++score.rays;
-            const Real oo[3] = {org[0][lane], org[1][lane], org[2][lane]}, dd[3] = {dir[0][lane], dir[1][lane], dir[2][lane]};
+            Real oo[3], dd[3];
+            for (int row = 0; row < 3; ++row) {
+                oo[row] = dd[row] = 0;
+                for (int axis = 0; axis < 3; ++axis) {
+                    oo[row] += Real{turn[3 * row + axis]} * org[axis][lane];
+                    dd[row] += Real{turn[3 * row + axis]} * dir[axis][lane];
+                }
+            }
             const Truth truth = truth_of(oo, dd, taper);
             const Real rho = 1 + Real{taper} * oo[1], slope = Real{taper} * dd[1];
             const Real t0 = truth.t0(), t1 = truth.t1();
@@ -136,6 +149,11 @@ Score score_cone(double taper_, int rays, std::uint64_t seed, Aim&& aim) {
         }
     }
     return score;
+}
+
+template <class Aim>
+Score score_cone(double taper, int rays, std::uint64_t seed, Aim&& aim) {
+    return score_cone(own_space(static_cast<float>(taper)), rays, seed, aim);
 }
 
 glm::dvec3 direction(Lottery& random) {
@@ -222,4 +240,31 @@ TEST_CASE("cone: at the silhouette, parallel to the side, and close by the tip")
         CHECK(tip.false_miss + tip.false_hit + tip.wrong_end + tip.off == 0);
         CHECK(tip.hits > tip.rays / 10);
     }
+}
+
+TEST_CASE("cone, turned: nearly level rays from far away, close by a cap or the tip") {
+    Lottery turns(8);
+    for (const double taper : {-2.0, -1.7, 0.6})
+        for (const double distance : {3.0, 30.0, 1e3}) {
+            INFO("taper ", taper, ", distance ", distance);
+            const glm::dvec3 x = direction(turns), y = glm::normalize(glm::cross(x, direction(turns))), z = glm::cross(x, y);
+            AffineRecord turned = own_space(static_cast<float>(taper));
+            for (int axis = 0; axis < 3; ++axis) {
+                turned.object_from_world[axis] = static_cast<float>(x[axis]);
+                turned.object_from_world[3 + axis] = static_cast<float>(y[axis]);
+                turned.object_from_world[6 + axis] = static_cast<float>(z[axis]);
+            }
+            turned.stretch = stretch_of(turned);
+            Score score = score_cone(turned, cases(200000), 9, [&](Lottery& random, glm::dvec3& o, glm::dvec3& target) {
+                const double below = random.magnitude(1e-7, 1e-1), r = 1 + taper * (0.5 - below),
+                             angle = random.uniform(0, 6.2831853);
+                target = glm::dvec3(0, 0.5 - below, 0) + direction(random) * random.uniform(0, r);
+                o = target +
+                    glm::dvec3(std::cos(angle), random.uniform(-1, 1) * random.magnitude(1e-4, 1e-1), std::sin(angle)) * distance;
+            });
+            CHECK(score.false_miss + score.false_hit == 0);
+            CHECK(score.wrong_end == 0);
+            CHECK(score.off == 0);
+            CHECK(score.hits > score.rays / 4);
+        }
 }

@@ -10,14 +10,15 @@
 namespace lanecast::selftest {
 namespace {
 
+/// `stagger`: how far each row of vertices is turned against the one above it, in steps. 0: quads are flat.
 template <class Place>
-Mesh ball(int rows, double bump, Place&& place) {
+Mesh ball(int rows, double bump, double stagger, Place&& place) {
     Mesh mesh;
     const int n = rows, m = 2 * rows;
     mesh.positions.push_back(place(glm::dvec3(0, 1, 0)));
     for (int i = 1; i < n; ++i)
         for (int j = 0; j < m; ++j) {
-            const double a = std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / m;
+            const double a = std::numbers::pi * i / n, b = 2 * std::numbers::pi * (j + stagger * i) / m;
             const double r = 1 + bump * std::sin(7 * a) * std::cos(5 * b);
             mesh.positions.push_back(
                 place(glm::dvec3(r * std::sin(a) * std::cos(b), r * std::cos(a), r * std::sin(a) * std::sin(b))));
@@ -72,13 +73,15 @@ Mesh gridded_box(int n) {
 Mesh closed_mesh(Form form, int detail) {
     switch (form) {
     case Form::ball: // the axes differ
-        return ball(detail, 0, [](const glm::dvec3& p) { return p * glm::dvec3(1, 0.8, 0.9); });
+        return ball(detail, 0, 0, [](const glm::dvec3& p) { return p * glm::dvec3(1, 0.8, 0.9); });
     case Form::bumpy:
-        return ball(detail, 0.1, [](const glm::dvec3& p) { return p; });
+        return ball(detail, 0.1, 0, [](const glm::dvec3& p) { return p; });
     case Form::needles: { // quads of about 3 / detail, along y; narrowed so that they are 1e4 times longer than wide
         const double narrow = 1.2e-4;
-        return ball(detail, 0, [=](const glm::dvec3& p) { return p * glm::dvec3(narrow, 1, narrow); });
+        return ball(detail, 0, 0, [=](const glm::dvec3& p) { return p * glm::dvec3(narrow, 1, narrow); });
     }
+    case Form::staggered_ball:
+        return ball(detail, 0, 0.5, [](const glm::dvec3& p) { return p * glm::dvec3(1, 0.8, 0.9); });
     case Form::gridded_box:
         break;
     }

@@ -12,11 +12,11 @@
 
 namespace lanecast::selftest {
 
-enum class Form { ball, bumpy, needles, gridded_box };
-inline constexpr int form_count = 4;
+enum class Form { ball, bumpy, needles, gridded_box, staggered_ball };
+inline constexpr int form_count = 4; ///< that N1 and N2 draw from
 
-/// Of size about 1 around the origin. ball: convex, no two faces parallel. needles: of 1:1e4. gridded_box: flat sides.
-/// `detail`: rows of quads.
+/// Of size about 1 around the origin. ball: convex, of flat quads. needles: of 1:1e4. gridded_box: flat sides. staggered_ball: no
+/// two faces in one plane, so that it is convex on float's grid, too. `detail`: rows of quads.
 [[nodiscard]] Mesh closed_mesh(Form form, int detail);
 
 /// A point from which every ray meets the mesh exactly once.

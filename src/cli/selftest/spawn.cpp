@@ -22,10 +22,12 @@ struct BodyScene {
     double size;
 };
 
-Shape convex_shape(PrimitiveKind kind, Random& random) {
-    switch (kind) {
+Shape convex_shape(const Setting& s, Random& random) {
+    // Vertices are rounded to floats: flat quads make no body that is convex to a double's offset. To a float's they must.
+    const bool in_double = s.kernels->precision == Precision::precise || s.kernels->precision == Precision::reference;
+    switch (s.primitive) {
     case PrimitiveKind::triangle:
-        return closed_mesh(Form::ball, 16);
+        return closed_mesh(in_double ? Form::staggered_ball : Form::ball, 16);
     case PrimitiveKind::plane:
         return Plane{random.point(1), random.direction()};
     case PrimitiveKind::cone:
@@ -39,7 +41,7 @@ Shape convex_shape(PrimitiveKind kind, Random& random) {
 
 BodyScene make_body(const Setting& s, Random& random) {
     BodyScene scene;
-    Object object = make_object(convex_shape(s.primitive, random));
+    Object object = make_object(convex_shape(s, random));
     bool alone = true;
     if (s.primitive == PrimitiveKind::ellipsoid) object.transformations.emplace_back(Scale{{1, random.uniform(0.2, 0.9), 1.3}});
     if (s.primitive != PrimitiveKind::plane) {
@@ -60,7 +62,7 @@ BodyScene make_body(const Setting& s, Random& random) {
     for (int axis = 0; axis < 3; ++axis) scene.size = std::max(scene.size, 1.3 * glm::length(world.linear[axis]));
     if (s.primitive == PrimitiveKind::plane) scene.centre = std::get<Plane>(object.shape).position, scene.size = 1;
     scene.description.objects.push_back(object);
-    if (!alone) add_object(scene.description, Sphere{1e-3 * scene.size, -scene.centre});
+    if (!alone) add_object(scene.description, Sphere{1e-9 * scene.size, -scene.centre}); // too small to stand in a light
     if (s.primitive == PrimitiveKind::plane) // gives the scene its scale; behind the plane, where no light goes
         add_object(scene.description, Sphere{1, scene.centre - 3.0 * std::get<Plane>(object.shape).normal});
     Camera& camera = scene.description.camera;

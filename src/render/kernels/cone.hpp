@@ -55,7 +55,7 @@ LANECAST_INLINE CappedCrossing<F> cross_cone(ObjectRay<F> ray, Mask<F> active) {
     if (none(local.ends.hit)) return local;
 
     // Told as t, where a sum that cancels may not lead past the caps.
-    const F cap_a = (F(S(-0.5)) - o.y) / d.y, cap_b = (F(S(0.5)) - o.y) / d.y;
+    const F cap_a = ray.meet_height(-0.5), cap_b = ray.meet_height(0.5);
     const Mask<F> level = d.y == zero;
     const F cap0 = select(level, -infinity, min(cap_a, cap_b)), cap1 = select(level, infinity, max(cap_a, cap_b));
     const F t0 = max(cap0, tm + body0), t1 = min(cap1, tm + body1);

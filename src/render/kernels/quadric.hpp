@@ -151,12 +151,7 @@ LANECAST_INLINE CappedCrossing<F> cross_cylinder(ObjectRay<F> ray, Mask<F> activ
     if (none(body_hit)) return {{body.t0, body.t1, body_hit}, body_hit, body_hit};
     const F body0 = select(parallel, -infinity, body.t0);
     const F body1 = select(parallel, infinity, body.t1);
-    // Found once more from their exact heights: of a ray that grazes a cap o.y alone tells little.
-    const auto meet_cap = [&](double y) {
-        const F near = (F(static_cast<S>(y)) - o.y) / d.y;
-        return near - ray.above(y, near) / d.y;
-    };
-    return clip_to_caps(o, d, meet_cap(-0.5), meet_cap(0.5), body0, body1, body_hit);
+    return clip_to_caps(o, d, ray.meet_height(-0.5), ray.meet_height(0.5), body0, body1, body_hit);
 }
 
 } // namespace lanecast::inline LANECAST_ISA

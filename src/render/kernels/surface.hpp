@@ -93,6 +93,8 @@ LANECAST_INLINE Point<F> triangle_point(const SceneView& scene, const Vec3<F>& o
             dot(dir, hit.normal) > F(0)};
 }
 
+/// That a ray enters a body is known from its crossing, in the same numbers as when it was hit: where it grazes, the normal at
+/// the rounded t may say otherwise.
 template <FloatBatch F>
 LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org, const Vec3<F>& dir, F t, Int<F> slot,
                                       Mask<F> lanes) {
@@ -106,11 +108,11 @@ LANECAST_INLINE Point<F> sphere_point(const SceneView& scene, const Vec3<F>& org
     });
     const Vec3<F> n = normalize((org - centre) + dir * t);
     const F slack = radius * F(gamma_7<F>);
-    return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>), dot(dir, n) > F(0)};
+    const Crossing<F> ends = cross_sphere(org, centre, dir, radius, lanes);
+    return {centre + n * radius, n, Vec3<F>{slack, slack, slack} + abs(centre) * F(two_u<F>), t != ends.t0};
 }
 
-/// A body's point from its point and normal in object space. That the ray enters there is known from its crossing: where it
-/// grazes, the normal at the rounded t may say otherwise.
+/// A body's point from its point and normal in object space.
 template <FloatBatch F>
 LANECAST_INLINE Point<F> affine_point(const SceneView& scene, std::uint32_t record, const Vec3<F>& p, const Vec3<F>& n,
                                       Mask<F> enters) {
@@ -132,7 +134,7 @@ LANECAST_INLINE Point<F> ellipsoid_point(const SceneView& scene, const Vec3<F>& 
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
     const ObjectRay<F> ray(scene.affines[record], org, dir);
     const Vec3<F> p = normalize(ray.at(t));
-    return affine_point(scene, record, p, p, t == cross_ellipsoid(ray, Mask<F>(true)).t0); // the same numbers as when it was hit
+    return affine_point(scene, record, p, p, t == cross_ellipsoid(ray, Mask<F>(true)).t0);
 }
 
 template <FloatBatch F>
@@ -140,7 +142,7 @@ LANECAST_INLINE Point<F> cylinder_point(const SceneView& scene, const Vec3<F>& o
     using S = Scalar<F>;
     const std::uint32_t record = affine_index(scene, static_cast<std::uint32_t>(slot));
     const ObjectRay<F> ray(scene.affines[record], org, dir);
-    const CappedCrossing<F> crossing = cross_cylinder(ray, Mask<F>(true)); // the same numbers as when it was hit
+    const CappedCrossing<F> crossing = cross_cylinder(ray, Mask<F>(true));
     const Mask<F> enters = t == crossing.ends.t0;
     const Mask<F> cap = (enters & crossing.cap0) | ((!enters) & crossing.cap1);
     const Vec3<F> q = ray.at(t);

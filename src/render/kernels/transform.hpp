@@ -71,6 +71,11 @@ struct ObjectRay {
     [[nodiscard]] LANECAST_INLINE F above(double y, F t) const {
         return D::rounded(dot(detail::row_of<F>(affine, 1), from_centre(t)) - D::splat(y));
     }
+    /// The t at height y. Found once more from the exact height there: of a ray that is nearly level org.y alone tells little.
+    [[nodiscard]] LANECAST_INLINE F meet_height(double y) const {
+        const F near = (F(static_cast<Scalar<F>>(y)) - org.y) / dir.y;
+        return near - above(y, near) / dir.y;
+    }
     /// Where the true ray meets the body, this ray is at most so far from it. There |t dir_world| is at most the distance and
     /// `radius`; rounding may reach 18 u of all these, so that 170 u leave room for that of whoever asks.
     [[nodiscard]] LANECAST_INLINE F slack() const {
