@@ -326,3 +326,44 @@ TEST_CASE("a ray in the plane of a triangle does not hit it beside itself") {
     CHECK((sizeof(S) == sizeof(double) || ties > 0)); // of float vertices in double none are exact
     CHECK(hits == 0);
 }
+
+TEST_CASE("signs: a triangle is met where comparing the products of each edge says so, on lattices, tiny and huge") {
+    Lottery random(10);
+    const FlushDenormals flush;
+    std::uint64_t hits = 0, ties = 0, beside = 0, wrong = 0;
+    for (int n = 0; n < cases(4000000); n += W) {
+        const int kind = random.below(4);
+        const double size = kind < 2 ? 1 : kind == 2 ? random.magnitude(1e-26, 1e-14) : random.magnitude(1e14, 1e22);
+        alignas(64) S in[12][W];
+        for (int row = 0; row < 12; ++row)
+            for (S& number : in[row])
+                number = static_cast<S>(static_cast<float>(row >= 9    ? 0.5 * (random.below(5) - 2)
+                                                           : kind == 1 ? random.uniform(-1, 1)
+                                                                       : size * (random.below(5) - 2)));
+        const auto vector = [&](int row) { return Vec3<F>{load<F>(in[row]), load<F>(in[row + 1]), load<F>(in[row + 2])}; };
+        const TriangleEdges<F> e = triangle_edges(vector(9), vector(0), vector(3), vector(6));
+        alignas(64) S depths[W];
+        lanecast::store(depths, triangle_t(vector(9).z, e));
+        const std::uint32_t inside = bits(e.inside);
+        for (int lane = 0; lane < W; ++lane) {
+            const auto sheared = [&](int row, int axis) {
+                return less_product<S>(in[row + axis][lane], in[9 + axis][lane], in[row + 2][lane]);
+            };
+            const S ax = sheared(0, 0), ay = sheared(0, 1), bx = sheared(3, 0), by = sheared(3, 1), cx = sheared(6, 0),
+                    cy = sheared(6, 1);
+            const S u0 = cx * by, u1 = cy * bx, v0 = ax * cy, v1 = ay * cx, w0 = bx * ay, w1 = by * ax;
+            const bool on = (u0 >= u1 && v0 >= v1 && w0 >= w1) || (u0 <= u1 && v0 <= v1 && w0 <= w1);
+            const bool spans = std::min(ax * bx, ax * cx) <= 0 && std::min(ay * by, ay * cy) <= 0;
+            if (depths[lane] != depths[lane]) continue; // no range accepts it
+            const bool says = (inside >> lane & 1u) != 0;
+            wrong += says != (on && spans);
+            hits += says;
+            ties += on && (u0 == u1 || v0 == v1 || w0 == w1);
+            beside += on && !spans;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(hits > 10000u / fewer);
+    CHECK(ties > 10000u / fewer);
+    CHECK((sizeof(S) == sizeof(double) || beside > 100u / fewer)); // of floats doubles lose nothing
+}
