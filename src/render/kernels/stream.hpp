@@ -53,15 +53,22 @@ LANECAST_INLINE void normalise(S* to, const float* from, std::uint32_t n, double
     }
 }
 
+/// Directions are read in place, where they are floats and so many that no vector of them reaches beyond the caller's array.
 template <FloatBatch F>
 LANECAST_INLINE void read_rays(const RayStream& stream, std::uint32_t begin, std::uint32_t n, const StreamUnits& units,
-                               const RayBatch<F>& rays) {
+                               StreamBatch<F>& batch, RayBatch<F>& rays) {
     using S = Scalar<F>;
     const S scale = static_cast<S>(units.scale);
     for (int axis = 0; axis < 3; ++axis) {
         if (stream.common_origin == 0) normalise(rays.org[axis], stream.org[axis] + begin, n, units.centre[axis], units.scale);
-        S* const to = rays.dir[axis];
         const float* const from = stream.dir[axis] + begin;
+        if constexpr (sizeof(S) == sizeof(float)) {
+            if (n % width<F> == 0) {
+                rays.dir[axis] = const_cast<float*>(from);
+                continue;
+            }
+        }
+        S* const to = rays.dir[axis] = batch.floats[3 + axis];
 #pragma GCC ivdep
         for (std::uint32_t i = 0; i < n; ++i) to[i] = static_cast<S>(from[i]);
     }
@@ -150,7 +157,7 @@ void trace_stream(const SceneView& scene, const RayStream& stream) {
     }
     for (std::uint32_t begin = 0; begin < stream.count; begin += chunk) {
         const std::uint32_t n = stream.count - begin < chunk ? stream.count - begin : chunk;
-        detail::read_rays(stream, begin, n, units, rays);
+        detail::read_rays(stream, begin, n, units, batch, rays);
         trace<query>(scene, rays, n, stream.brute_force != 0, scratch, stats);
         detail::write_hits<query>(scene, stream, begin, n, units, rays);
     }
