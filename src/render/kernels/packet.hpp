@@ -145,16 +145,17 @@ LANECAST_INLINE bool derive_rays(Packet<F>& packet, std::uint32_t n, float max_c
             far_bound[axis] = min(far_bound[axis], along[axis] * o_far);
         }
     };
+    const auto length_of = [](const S(&v)[3][Packet<F>::stride], std::uint32_t i) {
+        return abs(load<F>(v[0] + i)) + abs(load<F>(v[1] + i)) + abs(load<F>(v[2] + i));
+    };
     if (common) move_apart(0);
-    F t_max(S(-1));
+    F t_max(S(-1)), org_length = length_of(packet.org, 0);
     for (std::uint32_t i = 0; i < n; i += width<F>) {
         // A ray that is not finite hits nothing, and must not spoil the intervals of the others: it becomes a dead lane. So does
         // one whose roundings exceed the boxes of nodes' unused children, and one whose reciprocals vanish.
-        const F sum = (abs(load<F>(packet.org[0] + i)) + abs(load<F>(packet.org[1] + i))) +
-                      (abs(load<F>(packet.org[2] + i)) + abs(load<F>(packet.dir[0] + i))) +
-                      (abs(load<F>(packet.dir[1] + i)) + abs(load<F>(packet.dir[2] + i)));
+        if (!common) org_length = length_of(packet.org, i);
         const F t = load<F>(packet.t + i);
-        const Mask<F> valid = (sum <= F(S(largest_ray))) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        const Mask<F> valid = (org_length + length_of(packet.dir, i) <= F(S(largest_ray))) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
         if (!all(valid)) {
             if (common) return false;
             detail::kill_lanes(packet, i, valid);
