@@ -78,7 +78,7 @@ const std::vector<Case>& all_cases() {
         {"N15", "", "rays that are none hit nothing and change no other",
          {}, test_bad_rays, {every_primitive, every_placing, every_path, false}, 2'000'000},
         {"N15", "time", "and cost no more than 1.2 times what good ones do",
-         {.median = 1.2}, test_bad_ray_time, {every_primitive, 1, only(Path::batch) | only(Path::mixed), false}, 500'000, 16384},
+         {.median = 1.2}, test_bad_ray_time, {every_primitive, 1, only(Path::batch) | only(Path::mixed), false}, 500'000, 16384, 0.07}, // each ray is traced 14 times
         {"N16", "furnace", "white surfaces and mirrors in a white room are white",
          {.worst = 4, .unit = "ulp"}, test_furnace, pictures, 2'000'000, 32768},
         {"N16", "glass", "glass there gives no light of its own",
