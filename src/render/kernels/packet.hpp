@@ -155,7 +155,8 @@ LANECAST_INLINE bool derive_rays(Packet<F>& packet, std::uint32_t n, float max_c
         // one whose roundings exceed the boxes of nodes' unused children, and one whose reciprocals vanish.
         if (!common) org_length = length_of(packet.org, i);
         const F t = load<F>(packet.t + i);
-        const Mask<F> valid = (org_length + length_of(packet.dir, i) <= F(S(largest_ray))) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
+        const Mask<F> valid =
+            (org_length + length_of(packet.dir, i) <= F(S(largest_ray))) & (abs(load<F>(packet.dir[kz] + i)) > F(0)) & (t == t);
         if (!all(valid)) {
             if (common) return false;
             detail::kill_lanes(packet, i, valid);

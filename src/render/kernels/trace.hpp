@@ -29,8 +29,8 @@ struct Ascending {
 };
 inline constexpr Ascending ascending;
 
-/// The key that all rays have, as those of a coherent batch mostly do, in a third of the operations of finding every key. -1: they
-/// have not, or a component is 0 or ties.
+/// The key that all rays have, as those of a coherent batch mostly do, in a third of the operations of finding every key. -1:
+/// they have not, or a component is 0 or ties.
 template <FloatBatch F>
 LANECAST_INLINE std::int32_t shared_key(const RayBatch<F>& rays, std::uint32_t n) {
     using S = Scalar<F>;
