@@ -243,6 +243,61 @@ TEST_CASE("a ray from outside a sphere enters it where it grazes it") {
     CHECK(hits > 1000u / fewer);
 }
 
+TEST_CASE("a ray from outside a body enters it where it grazes it") {
+    for (const int kind : {0, 1, 2, 4}) {
+        CAPTURE(std::string(body_names[kind]));
+        Lottery random(10);
+        const FlushDenormals flush;
+        const SceneArrays arrays = flatten(scene_of(kind, 1, 0), RenderSettings{}, 1);
+        const SceneView scene = view(arrays);
+        const double size = arrays.normalisation.scale;
+        const auto scratch = std::make_unique<TraceScratch<F>>();
+        Batch at, along;
+        std::uint64_t hits = 0, inside = 0;
+        for (int n = 0; n < cases(500000); n += static_cast<int>(batch)) {
+            for (std::uint32_t i = 0; i < batch; ++i) {
+                const glm::dvec3 o = direction(random) * (4 * size);
+                at.set(i, o, direction(random) * (0.5 * size) - o);
+            }
+            at.trace_in<Query::closest>(scene, *scratch);
+            for (std::uint32_t i = 0; i < batch; i += W) {
+                const Int<F> slot = load_int<F>(at.rays.slot + i);
+                const Mask<F> found = slot > Int<F>(-1);
+                if (none(found)) continue;
+                const Surface<F> s =
+                    surface_at<F>(scene, load<F>(at.rays.org, i), load<F>(at.rays.dir, i), load<F>(at.rays.t + i), slot, found);
+                alignas(64) S p[3][W], normal[3][W];
+                S* const p_rows[3] = {p[0], p[1], p[2]};
+                S* const n_rows[3] = {normal[0], normal[1], normal[2]};
+                store<F>(p_rows, 0, s.point);
+                store<F>(n_rows, 0, s.normal);
+                for (std::uint32_t lane = 0; lane < W; ++lane) {
+                    const glm::dvec3 up(normal[0][lane], normal[1][lane], normal[2][lane]),
+                        point(p[0][lane], p[1][lane], p[2][lane]);
+                    const bool met = (bits(found) >> lane & 1u) != 0;
+                    const glm::dvec3 side = met ? glm::normalize(glm::cross(up, direction(random))) : direction(random);
+                    const double off = size * random.uniform(-1, 1) * random.magnitude(1e-8, 1e-5);
+                    along.set(i + lane,
+                              met ? point + up * off - side * (size * random.magnitude(3, 100)) : direction(random) * (9 * size),
+                              side);
+                }
+            }
+            along.trace_in<Query::closest>(scene, *scratch);
+            for (std::uint32_t i = 0; i < batch; i += W) {
+                const Int<F> slot = load_int<F>(along.rays.slot + i);
+                const Mask<F> found = slot > Int<F>(-1);
+                if (none(found)) continue;
+                const Surface<F> s = surface_at<F>(scene, load<F>(along.rays.org, i), load<F>(along.rays.dir, i),
+                                                   load<F>(along.rays.t + i), slot, found);
+                hits += static_cast<std::uint64_t>(std::popcount(bits(found)));
+                inside += static_cast<std::uint64_t>(std::popcount(bits(s.inside)));
+            }
+        }
+        CHECK(inside == 0);
+        CHECK(hits > 1000u / fewer);
+    }
+}
+
 TEST_CASE("a plane does not shadow itself") {
     Lottery random(3);
     for (int n = 0; n < cases(60); ++n) {
