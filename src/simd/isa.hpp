@@ -21,9 +21,6 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
-/// `--precision fast`: see arithmetic.hpp.
-inline constexpr bool is_fast = LANECAST_FAST;
-
 #if defined(__AVX512F__)
 using Arch = xsimd::avx512bw;
 inline constexpr char isa_name[] = "avx512";

@@ -15,6 +15,7 @@ namespace {
 using F = NativeFloat;
 using S = Scalar<F>;
 constexpr int W = width<F>;
+constexpr bool is_fast = LANECAST_FAST;
 
 struct Lanes {
     alignas(64) S v[W + 16];

@@ -1,6 +1,6 @@
 #pragma once
-// The library's entry points: rays of any number and alignment, in batches through the same `trace` as the renderer's. The
-// caller's units are converted in the copy that batches need anyway; a short stream pays for its own length only.
+// The library's entry points: rays of any number and alignment, in batches through the same `trace` as the renderer's. What
+// has units is converted in a copy; a short stream pays for its own length only.
 
 #include "render/kernels/stream_attributes.hpp"
 #include "render/kernels/trace.hpp"

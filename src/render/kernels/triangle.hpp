@@ -30,7 +30,8 @@ struct TriangleEdges {
 /// A, B, C: the vertices less the ray's origin, in the ray's axes. Both neighbours of an edge compare the same two products, and
 /// rounding is monotone, so with the inclusive test no ray passes between them: 0 leaks in 1e9 edge- and 1e9 vertex-aimed rays.
 /// A triangle seen edge-on may tie at all edges, for rays beside it too: the ray must lie in the span of the vertices.
-/// Where no edge ties, the signs of the differences say the same, and the span follows: see the test `signs`.
+/// Where no edge ties, the signs of the differences say the same: rounding being monotone, they are those of the exact products,
+/// and a point strictly inside lies within the span. A product that overflows leaves no t (`triangle_t`).
 template <FloatBatch F>
 LANECAST_INLINE TriangleEdges<F> triangle_edges(const Vec3<F>& shear, const Vec3<F>& A, const Vec3<F>& B, const Vec3<F>& C) {
     const F ax = less_product(A.x, shear.x, A.z), ay = less_product(A.y, shear.y, A.z);
