@@ -31,7 +31,8 @@ struct BuildOptions {
 
 inline constexpr std::uint32_t no_hit = 0xffffffffu;
 
-/// What the caller knows of neighbours in a stream. It changes the time, never the answers.
+/// What the caller knows of neighbours in a stream; coherent: they go nearly the same way, as a camera's do. It changes the time,
+/// never the answers.
 enum class Coherence { unknown, coherent, incoherent };
 
 /// Rays as a structure of arrays: each pointer to `count` floats of any alignment. Rays with a NaN, an infinite origin or

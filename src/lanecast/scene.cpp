@@ -79,7 +79,7 @@ void for_each_piece(const RayArrays& rays, const StreamUnits& units, Trace&& tra
         stream.tmax = rays.tmax != nullptr ? rays.tmax + begin : nullptr;
         stream.count = static_cast<std::uint32_t>(std::min(rays.count - begin, longest));
         stream.common_origin = rays.common_origin ? 1 : 0;
-        stream.incoherent = rays.coherence == Coherence::incoherent ? 1 : 0;
+        stream.coherent = rays.coherence == Coherence::coherent ? 1 : 0;
         stream.units = &units;
         trace(stream, begin);
     }

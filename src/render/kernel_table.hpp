@@ -126,7 +126,7 @@ struct RayStream {
     std::uint32_t brute_force; ///< 1: every primitive instead of the tree
     std::uint32_t count;
     std::uint32_t common_origin; ///< 1: every org is the same point
-    std::uint32_t incoherent;    ///< 1: neighbours in the stream have little in common
+    std::uint32_t coherent;      ///< 1: neighbours in the stream go nearly the same way
 
     const StreamUnits* units; ///< of org, tmin, tmax and t; null: normalised
     std::uint8_t* occluded;   ///< out, any_hit: 1 for a hit, 0 for a miss; may be null

@@ -238,8 +238,8 @@ LANECAST_INLINE Int<F> expand_load_int(const std::int32_t* p, Mask<F> mask) {
 }
 
 /// Calls body(bit number) for every set bit, lowest first.
-template <class Body>
-LANECAST_INLINE void for_each_bit(std::uint32_t b, Body&& body) {
+template <class Bits, class Body>
+LANECAST_INLINE void for_each_bit(Bits b, Body&& body) {
     while (b != 0) {
         body(lowest_bit(b));
         b &= b - 1;

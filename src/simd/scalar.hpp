@@ -16,9 +16,9 @@ concept ScalarBatch = std::is_same_v<T, float> || std::is_same_v<T, double>;
 
 // Not <bit>: without optimisation its functions are emitted, and the linker would share one ISA's copy with all
 // (docs/building.md).
-LANECAST_INLINE std::uint32_t count_bits(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_popcount(b)); }
+LANECAST_INLINE std::uint32_t count_bits(std::uint64_t b) { return static_cast<std::uint32_t>(__builtin_popcountll(b)); }
 /// b is not 0.
-LANECAST_INLINE std::uint32_t lowest_bit(std::uint32_t b) { return static_cast<std::uint32_t>(__builtin_ctz(b)); }
+LANECAST_INLINE std::uint32_t lowest_bit(std::uint64_t b) { return static_cast<std::uint32_t>(__builtin_ctzll(b)); }
 
 template <class F>
 struct BatchTraits;

@@ -106,7 +106,8 @@ void try_packet(Lottery& random, Packet<F>& packet, bool adversarial, Tally& tal
     }
 
     // vectors of rays that are close together; adversarial ones go for vertices and edges
-    packet.count = W * static_cast<std::uint32_t>(packet_vectors) - static_cast<std::uint32_t>(random.below(static_cast<int>(W)));
+    packet.count =
+        W * static_cast<std::uint32_t>(packet_vectors<F>) - static_cast<std::uint32_t>(random.below(static_cast<int>(W)));
     std::int32_t key = -1;
     std::uint32_t rays = 0;
     double x = 0, y = 0;
@@ -164,8 +165,8 @@ void try_packet(Lottery& random, Packet<F>& packet, bool adversarial, Tally& tal
 
     const auto vectors = static_cast<std::uint32_t>(packet.vectors);
     const TriangleImages<F> images(packet, block, triangles);
-    PairList list;
-    images.list_pairs(packet.prints, (1u << vectors) - 1u, triangles, list);
+    PairList<F> list;
+    images.list_pairs(packet.prints, packet.all_vectors(), triangles, list);
     const std::set<std::uint32_t> pairs(list.pairs, list.pairs + list.count);
     REQUIRE(pairs.size() == list.count);
     for (std::uint32_t vector = 0; vector < vectors; ++vector)

@@ -46,7 +46,7 @@ public:
         rays.tmax = tmax_.empty() ? nullptr : tmax_.data() + begin;
         rays.count = set_->chunk_size(chunk);
         rays.common_origin = set_->common_origin;
-        rays.coherence = set_->incoherent ? Coherence::incoherent : Coherence::coherent;
+        rays.coherence = set_->coherence;
         if (set_->query == Query::any) {
             scene_.any_hit(rays, occluded_.data() + begin);
             return;

@@ -61,6 +61,7 @@ RaySet camera_rays(const View& view, std::size_t count, const std::string& name)
     RaySet set;
     set.name = name;
     set.common_origin = true;
+    set.coherence = Coherence::coherent;
     set.tmax = infinity;
     const PixelRays camera(view);
     const bool offsets = name == "aa";
@@ -139,7 +140,8 @@ RaySet spawned_rays(const View& view, const std::vector<Start>& starts, const st
     if (name == "shadow" || name == "light" || name == "sun") set.query = Query::any;
     if (name == "shadow" || name == "light") set.tmax = 1;
     set.common_origin = name == "light";
-    set.incoherent = name == "diffuse";
+    if (name == "light") set.coherence = Coherence::coherent;
+    if (name == "diffuse") set.coherence = Coherence::incoherent;
     for (std::uint32_t i = 0; i < starts.size(); ++i) {
         const Start& s = starts[i];
         if (name == "mirror") set.add(s.point, s.dir - s.normal * (2 * glm::dot(s.dir, s.normal)));

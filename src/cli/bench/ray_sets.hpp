@@ -17,7 +17,7 @@ struct RaySet {
     std::string name;
     Query query = Query::closest;
     bool common_origin = false;
-    bool incoherent = false;
+    Coherence coherence = Coherence::unknown;
     std::vector<float> org[3], dir[3];
     float tmax = 0; ///< of every ray
 

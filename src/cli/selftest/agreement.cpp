@@ -83,7 +83,7 @@ bool in_pieces(const KernelTable& kernels, const SceneView& scene, const Rays& r
         stream.t = hits.t.data() + begin;
         stream.slot = hits.slot.data() + begin;
         stream.count = static_cast<std::uint32_t>(count);
-        stream.incoherent = random.chance(0.5) ? 1 : 0;
+        stream.coherent = random.chance(0.5) ? 1 : 0;
         kernels.closest_hit(scene, stream);
         begin += count;
         for (std::size_t i = begin; i < begin + slack; ++i) intact = intact && hits.slot[i] == -7 && hits.t[i] == -7.0f;

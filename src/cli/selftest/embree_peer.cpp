@@ -258,7 +258,7 @@ extern "C" __attribute__((visibility("default"))) void lanecast_ask_embree(const
                                                                            const PeerMode& mode) {
     const std::string isa = mode.isa;
     const Built built = build(device_for(isa), scene, mode.robust);
-    if (rays.incoherent != 0 || rays.count == 1)
+    if (rays.coherent == 0 || rays.count == 1)
         trace<1>(built, rays, mode.query, false);
     else if (isa == "avx512")
         trace<16>(built, rays, mode.query, true);

@@ -35,7 +35,7 @@ struct PeerMode {
 // In the module that links Embree.
 /// Its version. Throws Error (isa) where it does not run on that instruction set.
 extern "C" const char* lanecast_open_embree(const char* isa);
-/// Builds its tree, with default quality, and traces: one by one if the rays are incoherent or only one, else in packets.
+/// Builds its tree, with default quality, and traces: in packets if the rays are coherent and more than one, else one by one.
 extern "C" void lanecast_ask_embree(const PeerScene& scene, const RayStream& rays, const PeerMode& mode);
 
 struct Contender {

@@ -23,7 +23,7 @@ Hits ask(const KernelTable& kernels, const SceneView& scene, const Rays& rays, P
         stream.slot = hits.slot.data() + begin;
         stream.brute_force = brute_force ? 1 : 0;
         stream.count = static_cast<std::uint32_t>(piece);
-        stream.incoherent = path == Path::mixed ? 1 : 0;
+        stream.coherent = path == Path::batch ? 1 : 0;
         call(scene, stream);
     }
     return hits;
@@ -47,7 +47,7 @@ WorldHits ask_in_world(const KernelTable& kernels, const SceneArrays& scene, con
         stream.t = hits.t.data() + begin;
         stream.slot = hits.slot.data() + begin;
         stream.count = static_cast<std::uint32_t>(piece);
-        stream.incoherent = path == Path::mixed ? 1 : 0;
+        stream.coherent = path == Path::batch ? 1 : 0;
         stream.units = &units;
         kernels.closest_hit(view(scene), stream);
     }

@@ -20,10 +20,14 @@ struct BitLists {
 };
 inline constexpr BitLists bit_lists;
 
+using EightBytes [[gnu::vector_size(8)]] = std::uint8_t;
+using EightPairs [[gnu::vector_size(16)]] = std::uint16_t;
+
 /// Pairs of a vector and a triangle: 8 * vector + triangle each.
+template <FloatBatch F>
 struct PairList {
     std::uint32_t count = 0;
-    std::uint8_t pairs[8 * packet_vectors + 8];
+    std::uint16_t pairs[8 * packet_vectors<F> + 8];
 };
 
 /// Up to eight triangles of a leaf as a packet sees them.
@@ -42,8 +46,7 @@ struct TriangleImages {
     Group group[groups];
 
     LANECAST_INLINE TriangleImages(const Packet<F>& packet, const float* block, std::uint32_t count);
-    LANECAST_INLINE void list_pairs(const Footprints<F>& prints, std::uint32_t vectors, std::uint32_t count,
-                                    PairList& list) const;
+    LANECAST_INLINE void list_pairs(const Footprints<F>& prints, VectorSet vectors, std::uint32_t count, PairList<F>& list) const;
 
 private:
     LANECAST_INLINE void fill(Group& to, const Footprints<F>& prints, E (&x)[3], E (&y)[3], E (&z)[3]) const;
@@ -125,8 +128,8 @@ LANECAST_INLINE void TriangleImages<F>::fill(Group& to, const Footprints<F>& pri
 }
 
 template <FloatBatch F>
-LANECAST_INLINE void TriangleImages<F>::list_pairs(const Footprints<F>& prints, std::uint32_t vectors, std::uint32_t count,
-                                                   PairList& list) const {
+LANECAST_INLINE void TriangleImages<F>::list_pairs(const Footprints<F>& prints, VectorSet vectors, std::uint32_t count,
+                                                   PairList<F>& list) const {
     const std::uint32_t all = (1u << count) - 1u;
     for_each_bit(vectors, [&](std::uint32_t vector) {
         const E lo_x(prints.lo[0][vector]), hi_x(prints.hi[0][vector]), lo_y(prints.lo[1][vector]), hi_y(prints.hi[1][vector]);
@@ -142,8 +145,9 @@ LANECAST_INLINE void TriangleImages<F>::list_pairs(const Footprints<F>& prints, 
             beside |= bits(outside | apart) << (g * W);
         }
         const std::uint32_t candidates = ~beside & all;
-        const std::uint64_t eight = bit_lists.of[candidates] + vector * 0x0808080808080808u;
-        __builtin_memcpy(list.pairs + list.count, &eight, 8);
+        const auto triangles = __builtin_bit_cast(EightBytes, bit_lists.of[candidates]);
+        const EightPairs eight = __builtin_convertvector(triangles, EightPairs) + static_cast<std::uint16_t>(8 * vector);
+        __builtin_memcpy(list.pairs + list.count, &eight, sizeof eight);
         list.count += count_bits(candidates);
     });
 }

@@ -59,7 +59,7 @@ bool pass_apex(const Packet<F>& packet, Footprints<F>& prints, Scalar<F> (&passe
 template <FloatBatch F>
 void bound_each(const Scalar<F>* vectors, std::uint32_t n, Scalar<F>* lo, Scalar<F>* hi) {
     constexpr std::uint32_t W = width<F>;
-    for (std::uint32_t group = 0; group < packet_vectors; group += W) {
+    for (std::uint32_t group = 0; group < packet_vectors<F>; group += W) {
         const auto at = [&](std::uint32_t i) { return load<F>(vectors + (group + i < n ? group + i : n - 1) * W); };
         F least[W / 2], largest[W / 2];
 #pragma GCC unroll 8
@@ -102,14 +102,14 @@ void find_footprints(Packet<F>& packet) {
         detail::bound_each<F>(point ? packet.shear[k] : passes[k], static_cast<std::uint32_t>(packet.vectors), prints.lo[k],
                               prints.hi[k]);
         F least = load<F>(prints.lo[k]), largest = load<F>(prints.hi[k]);
-        for (int v = width<F>; v < packet_vectors; v += width<F>) {
+        for (int v = width<F>; v < packet_vectors<F>; v += width<F>) {
             least = min(load<F>(prints.lo[k] + v), least);
             largest = max(load<F>(prints.hi[k] + v), largest);
         }
         const S end = reduce_max(largest), middle = S(0.5) * (reduce_min(least) + end);
         prints.shear[k] = point ? middle : packet.shear[k][0];
         prints.offset[k] = point ? S(0) : middle;
-        for (int v = 0; v < packet_vectors; v += width<F>) {
+        for (int v = 0; v < packet_vectors<F>; v += width<F>) {
             store(prints.lo[k] + v, load<F>(prints.lo[k] + v) - F(middle));
             store(prints.hi[k] + v, load<F>(prints.hi[k] + v) - F(middle));
         }

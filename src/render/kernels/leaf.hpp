@@ -144,12 +144,12 @@ LANECAST_INLINE bool has_footprints(Packet<F>& packet, std::uint32_t pairs) {
 }
 
 template <Query query, FloatBatch F>
-LANECAST_INLINE std::uint32_t hit_candidates(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                             const TriangleSlots& slots, std::uint32_t count) {
+LANECAST_INLINE VectorSet hit_candidates(const SceneView& scene, Packet<F>& packet, VectorSet vectors, const float* block,
+                                         const TriangleSlots& slots, std::uint32_t count) {
     const TriangleImages<F> images(packet, block, count);
-    PairList list;
+    PairList<F> list;
     images.list_pairs(packet.prints, vectors, count, list);
-    std::uint32_t changed = 0;
+    VectorSet changed = 0;
     for (std::uint32_t k = 0; k < list.count; ++k) {
         const std::uint32_t vector = list.pairs[k] >> 3, lane = list.pairs[k] & 7u;
         const auto vertex = [&](std::uint32_t v) {
@@ -159,24 +159,24 @@ LANECAST_INLINE std::uint32_t hit_candidates(const SceneView& scene, Packet<F>& 
         const TriangleVertices<F> from_org = packet.common_origin ? TriangleVertices<F>{vertex(0), vertex(1), vertex(2)}
                                                                   : less(vertices_of<F>(packet.axes, block, count, lane),
                                                                          packet.origin_in_axes(vector * width<F>));
-        changed |= (hit_triangle<query, true>(scene, packet, vector, from_org, slots, lane) ? 1u : 0u) << vector;
+        changed |= VectorSet{hit_triangle<query, true>(scene, packet, vector, from_org, slots, lane)} << vector;
     }
     return changed;
 }
 
 template <Query query, FloatBatch F>
-LANECAST_INLINE std::uint32_t hit_triangles(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, const float* block,
-                                            const TriangleSlots& slots, std::uint32_t count) {
+LANECAST_INLINE VectorSet hit_triangles(const SceneView& scene, Packet<F>& packet, VectorSet vectors, const float* block,
+                                        const TriangleSlots& slots, std::uint32_t count) {
     if constexpr (!ScalarBatch<F>) {
         if (has_footprints(packet, count_bits(vectors) * count))
             return hit_candidates<query>(scene, packet, vectors, block, slots, count);
     }
-    std::uint32_t changed = 0;
+    VectorSet changed = 0;
     for (std::uint32_t lane = 0; lane < count; ++lane) {
         const TriangleVertices<F> vertices = vertices_of<F>(packet.axes, block, count, lane);
         for_each_bit(vectors, [&](std::uint32_t vector) {
             const TriangleVertices<F> from_org = less(vertices, packet.origin_in_axes(vector * width<F>));
-            if (hit_triangle<query, false>(scene, packet, vector, from_org, slots, lane)) changed |= 1u << vector;
+            if (hit_triangle<query, false>(scene, packet, vector, from_org, slots, lane)) changed |= VectorSet{1} << vector;
         });
     }
     return changed;
@@ -184,7 +184,7 @@ LANECAST_INLINE std::uint32_t hit_triangles(const SceneView& scene, Packet<F>& p
 
 /// Tests the vectors in `vectors` against the leaf; returns those in which some ray's t changed.
 template <Query query, FloatBatch F>
-std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t vectors, std::uint64_t child) {
+VectorSet hit_leaf(const SceneView& scene, Packet<F>& packet, VectorSet vectors, std::uint64_t child) {
     using S = Scalar<F>;
     const auto kind = static_cast<PrimitiveKind>((child >> child_kind_shift) & child_kind_mask);
     const auto count = static_cast<std::uint32_t>((child >> child_count_shift) & child_count_mask) + 1u;
@@ -194,7 +194,7 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
         return hit_triangles<query>(scene, packet, vectors, reinterpret_cast<const float*>(scene.arena + offset),
                                     triangle_slots(scene, child), count);
     }
-    std::uint32_t changed = 0;
+    VectorSet changed = 0;
     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
         if (kind == PrimitiveKind::sphere) {
             const SphereRecord& sphere = sphere_at(scene, slot);
@@ -203,7 +203,7 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
                 const std::uint32_t i = vector * width<F>;
                 const Crossing<F> ends =
                     cross_sphere(packet.origin(i), centre, packet.direction(i), F(S(sphere.radius)), Mask<F>(true));
-                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
+                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= VectorSet{1} << vector;
             });
         } else if (kind == PrimitiveKind::cone || kind == PrimitiveKind::open_cone) {
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
@@ -213,7 +213,7 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
                 const CappedCrossing<F> crossing = cross_cone(ObjectRay<F>(affine, org, dir), Mask<F>(true));
                 if (kind == PrimitiveKind::cone ? hit_convex<query>(scene, packet, i, crossing.ends, slot)
                                                 : hit_open<query>(scene, packet, i, crossing, slot))
-                    changed |= 1u << vector;
+                    changed |= VectorSet{1} << vector;
             });
         } else {
             const AffineRecord& affine = scene.affines[affine_index(scene, slot)];
@@ -223,7 +223,7 @@ std::uint32_t hit_leaf(const SceneView& scene, Packet<F>& packet, std::uint32_t 
                 const ObjectRay<F> ray(affine, org, dir);
                 const Crossing<F> ends = kind == PrimitiveKind::ellipsoid ? cross_ellipsoid(ray, Mask<F>(true))
                                                                           : cross_cylinder(ray, Mask<F>(true)).ends;
-                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= 1u << vector;
+                if (hit_convex<query>(scene, packet, i, ends, slot)) changed |= VectorSet{1} << vector;
             });
         }
     }

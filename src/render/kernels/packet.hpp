@@ -1,5 +1,5 @@
 #pragma once
-// A packet: up to 16 vectors of rays of one octant and one dominant axis, with everything traversal reads, and the intervals
+// A packet: up to 64 vectors of rays of one octant and one dominant axis, with everything traversal reads, and the intervals
 // that bound all of them.
 
 #include "render/kernels/rays.hpp"
@@ -7,7 +7,13 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
-inline constexpr int packet_vectors = 16;
+/// Bit v: vector v of a packet.
+using VectorSet = std::uint64_t;
+
+/// Of a full packet: as many as a set has bits, and 512 rays. The more, the fewer times a node is tested and a leaf's triangles
+/// are prepared for them; twice as many rays gained no more. Measured against 16: docs/performance.md.
+template <FloatBatch F>
+inline constexpr int packet_vectors = width<F> < 8 ? 64 : 512 / width<F>;
 
 /// What the rays of a packet have in common.
 enum class Common : std::uint8_t { unknown, nothing, point, direction };
@@ -20,16 +26,16 @@ struct Footprints {
     using S = Scalar<F>;
     Common common;
     S apex[3], shear[2], offset[2];
-    S lo[2][packet_vectors], hi[2][packet_vectors]; ///< of each vector's rays
-    S reach;                                        ///< the largest |x|, |y| of all rays
-    S range;                                        ///< largest distance of an origin from the apex along one axis
-    S slack;                                        ///< how far from the apex, along x or y, a ray may pass
+    S lo[2][packet_vectors<F>], hi[2][packet_vectors<F>]; ///< of each vector's rays
+    S reach;                                              ///< the largest |x|, |y| of all rays
+    S range;                                              ///< largest distance of an origin from the apex along one axis
+    S slack;                                              ///< how far from the apex, along x or y, a ray may pass
 };
 
 template <FloatBatch F>
 struct Packet {
     using S = Scalar<F>;
-    static constexpr std::uint32_t capacity = packet_vectors * width<F>;
+    static constexpr std::uint32_t capacity = packet_vectors<F> * width<F>;
     static constexpr std::uint32_t stride = capacity + width<F>; ///< no power of two: arrays 4096 bytes apart share cache lines
 
     alignas(64) S org[3][stride];
@@ -63,6 +69,7 @@ struct Packet {
     S first_tmax; ///< of ray 0
     Footprints<F> prints;
 
+    [[nodiscard]] LANECAST_INLINE VectorSet all_vectors() const { return ~VectorSet(0) >> (64 - vectors); }
     [[nodiscard]] LANECAST_INLINE Vec3<F> origin_in_axes(std::uint32_t i) const {
         return {load<F>(org[axes.kx] + i), load<F>(org[axes.ky] + i), load<F>(org[axes.kz] + i)};
     }

@@ -7,7 +7,7 @@
 
 namespace lanecast::inline LANECAST_ISA {
 
-inline constexpr std::uint32_t coherent_chunk = 512; ///< rays per batch; incoherent ones find more of their octant in 1024
+inline constexpr std::uint32_t coherent_chunk = 512; ///< rays per batch; others find more of their octant in 1024
 
 template <FloatBatch F>
 struct StreamBatch {
@@ -144,7 +144,7 @@ void trace_stream(const SceneView& scene, const RayStream& stream) {
     RayBatch<F> rays = batch.rays(stream);
     Occluders occluders; // should the rays go to one light; otherwise it is left empty or soon forgotten
     rays.occluders = &occluders;
-    const std::uint32_t chunk = stream.incoherent != 0 ? max_batch_rays : coherent_chunk;
+    const std::uint32_t chunk = stream.coherent != 0 ? coherent_chunk : max_batch_rays;
     const std::uint32_t filled = stream.count < chunk ? stream.count : chunk;
     for (std::uint32_t i = 0; i < filled + static_cast<std::uint32_t>(width<F>); ++i) rays.source[i] = no_source;
     if (stream.common_origin != 0 && filled > 0) {

@@ -44,14 +44,14 @@ LANECAST_INLINE std::uint32_t enter_children(const Packet<F>& packet, const BvhN
 
 /// Of the vectors in `vectors`, those with rays that may enter the child.
 template <FloatBatch F>
-LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& node, std::uint32_t child, std::uint32_t vectors) {
+LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& node, std::uint32_t child, VectorSet vectors) {
     using S = Scalar<F>;
     F near_plane[3], far_plane[3];
     for (int axis = 0; axis < 3; ++axis) {
         near_plane[axis] = F(S(packet.negative[axis] ? node.hi[axis][child] : node.lo[axis][child]));
         far_plane[axis] = F(S(packet.negative[axis] ? node.lo[axis][child] : node.hi[axis][child]));
     }
-    std::uint32_t lanes_of[packet_vectors];
+    std::uint32_t lanes_of[packet_vectors<F>];
     std::uint32_t count = 0;
     Entering entering{};
     const auto test = [&](std::uint32_t vector, const F(&near)[3], const F(&far)[3], F enter, F leave) {
@@ -65,7 +65,7 @@ LANECAST_INLINE Entering enter_vectors(const Packet<F>& packet, const BvhNode& n
         const std::uint32_t lanes = bits(enter <= leave);
         lanes_of[vector] = lanes;
         count += count_bits(lanes);
-        entering.vectors |= (lanes != 0 ? 1u : 0u) << vector;
+        entering.vectors |= VectorSet{lanes != 0} << vector;
     };
     if (packet.common_origin || packet.from_end) { // one subtraction for all
         F near[3], far[3];
@@ -115,7 +115,7 @@ LANECAST_INLINE std::uint32_t count_open(const Packet<F>& packet) {
 template <FloatBatch F>
 void try_occluders(const SceneView& scene, Packet<F>& packet, Occluders& occluders, std::uint32_t& open) {
     for (std::uint32_t k = 0; k < occluders.count && open > 0;) {
-        hit_leaf<Query::any>(scene, packet, (1u << packet.vectors) - 1u, occluders.leaf[k]);
+        hit_leaf<Query::any>(scene, packet, packet.all_vectors(), occluders.leaf[k]);
         const std::uint32_t before = open;
         open = count_open(packet);
         if ((before - open) * 16 < packet.count)
@@ -129,7 +129,7 @@ void try_occluders(const SceneView& scene, Packet<F>& packet, Occluders& occlude
 /// Remembers a leaf that has just answered a quarter of the rays. Measured, AVX-512, best against best: San Miguel, rays to a
 /// directional light 1.7 times as many, to a point light 1.3; Sponza 1.35 and 1.5; others 1.0.
 template <FloatBatch F>
-LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders, std::uint64_t leaf, std::uint32_t changed,
+LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders, std::uint64_t leaf, VectorSet changed,
                                    std::uint32_t& open) {
     if (packet.count < 32 || count_bits(changed) * 4 < static_cast<std::uint32_t>(packet.vectors)) return;
     const std::uint32_t before = open;
@@ -139,8 +139,8 @@ LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders
 
 /// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
 template <Query query, FloatBatch F>
-std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders* occluders) {
-    std::uint32_t last = (1u << packet.vectors) - 1u;
+VectorSet traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders* occluders) {
+    VectorSet last = packet.all_vectors();
     std::uint32_t open = query == Query::any && occluders != nullptr ? count_open(packet) : 0;
     if (query == Query::any && occluders != nullptr && occluders->count > 0) {
         try_occluders(scene, packet, *occluders, open);
@@ -158,8 +158,8 @@ std::uint32_t traverse_tree(const SceneView& scene, Packet<F>& packet, Occluders
         const bool leaf = (entry.child & child_is_leaf) != 0;
         if (leaf || entry.rays.count > 0) {
             last = entry.rays.vectors;
-            const std::uint32_t changed = entry.rays.count > 0 ? traverse_alone<query>(scene, packet, entry.rays, entry.child)
-                                                               : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
+            const VectorSet changed = entry.rays.count > 0 ? traverse_alone<query>(scene, packet, entry.rays, entry.child)
+                                                           : hit_leaf<query>(scene, packet, entry.rays.vectors, entry.child);
             if (changed != 0) {
                 update_t_max(packet);
                 if (query == Query::any && occluders != nullptr && leaf)
@@ -190,7 +190,7 @@ void traverse_packet(const SceneView& scene, Packet<F>& packet, Occluders* occlu
     occupancy.first_lanes += static_cast<std::uint64_t>(packet.vectors) * width<F>;
     occupancy.first_active += packet.count;
     hit_planes<query>(scene, packet);
-    std::uint32_t last = (1u << packet.vectors) - 1u;
+    VectorSet last = packet.all_vectors();
     if ((scene.features & feature_planes) != 0) update_t_max(packet);
     if (scene.leaf_count != 0 && brute_force) {
         for (std::uint32_t leaf = 0; leaf < scene.leaf_count; ++leaf) hit_leaf<query>(scene, packet, last, scene.leaves[leaf]);

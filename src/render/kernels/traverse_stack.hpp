@@ -13,9 +13,9 @@ inline constexpr std::uint32_t few_per_vector = width<F> < 8 ? (width<F> + 1) / 
 
 /// The rays of a packet that enter a subtree.
 struct Entering {
-    std::uint32_t vectors; ///< bit v: some ray of vector v
-    std::uint32_t count;   ///< of the rays when they are few; 0: many, only `vectors` is known
-    std::uint8_t rays[few_rays];
+    VectorSet vectors;   ///< bit v: some ray of vector v
+    std::uint32_t count; ///< of the rays when they are few; 0: many, only `vectors` is known
+    std::uint16_t rays[few_rays];
 };
 
 /// The rays of `vectors`, lanes_of[v] of each, should they be few in all.
@@ -24,7 +24,7 @@ LANECAST_INLINE void list_few(Entering& entering, const std::uint32_t* lanes_of,
     if (count > few_rays || count > few_per_vector<F> * count_bits(entering.vectors)) return;
     for_each_bit(entering.vectors, [&](std::uint32_t vector) {
         for_each_bit(lanes_of[vector], [&](std::uint32_t lane) {
-            entering.rays[entering.count++] = static_cast<std::uint8_t>(vector * width<F> + lane);
+            entering.rays[entering.count++] = static_cast<std::uint16_t>(vector * width<F> + lane);
         });
     });
 }
@@ -32,12 +32,13 @@ LANECAST_INLINE void list_few(Entering& entering, const std::uint32_t* lanes_of,
 /// The few rays, each on its own way, in turns: while one waits for memory, others go on. Returns the vectors in which some ray's
 /// t changed.
 template <Query query, FloatBatch F>
-std::uint32_t traverse_alone(const SceneView& scene, Packet<F>& packet, const Entering& rays, std::uint64_t child) {
+VectorSet traverse_alone(const SceneView& scene, Packet<F>& packet, const Entering& rays, std::uint64_t child) {
     const PlaneOffsets planes(packet.negative);
     const bool from_far = far_first<query>(packet.common_origin);
     SingleRay<F> singles[few_rays];
     std::uint8_t going[few_rays];
-    std::uint32_t count = 0, changed = 0;
+    std::uint32_t count = 0;
+    VectorSet changed = 0;
     for (std::uint32_t k = 0; k < rays.count; ++k) {
         if (packet.t[rays.rays[k]] < Scalar<F>(0)) continue;
         singles[count].start(packet, rays.rays[k], child);
@@ -53,7 +54,7 @@ std::uint32_t traverse_alone(const SceneView& scene, Packet<F>& packet, const En
             }
             going[k] = going[--count];
             if (ray.t == packet.t[ray.i] && ray.slot == packet.slot[ray.i]) continue;
-            changed |= 1u << (ray.i / width<F>);
+            changed |= VectorSet{1} << (ray.i / width<F>);
             packet.t[ray.i] = ray.t;
             packet.slot[ray.i] = ray.slot;
         }
