@@ -268,3 +268,55 @@ TEST_CASE("cone, turned: nearly level rays from far away, close by a cap or the 
             CHECK(score.hits > score.rays / 4);
         }
 }
+
+// A turn by 45 degrees after another leaves a residue of 1e-17 in a matrix, by which a ray that is level for all purposes meets
+// the planes of the caps 1e17 away.
+TEST_CASE("cone, cylinder: rays that are level but for a residue of rounding") {
+    Lottery random(9);
+    const FlushDenormals flush;
+    const float s = 0.70710677f;
+    std::uint64_t wrong = 0, hits = 0, misses = 0;
+    double worst = 0;
+    for (int n = 0; n < cases(60000); ++n) {
+        const float taper = random.chance(0.5) ? 0.0f : static_cast<float>(random.uniform(-1.5, 1.5));
+        const auto flat = static_cast<float>(std::pow(2.0, random.uniform(0, 8)));
+        const auto residue = static_cast<float>(std::pow(10.0, random.uniform(-30, -6)) * (random.chance(0.5) ? 1 : -1));
+        AffineRecord record = own_space(taper);
+        const float rows[9] = {s, s, 0, -s * flat, s * flat, residue, 0, 0, 1};
+        std::copy(std::begin(rows), std::end(rows), record.object_from_world);
+        record.stretch = stretch_of(record);
+        const auto along = static_cast<S>(static_cast<float>(random.uniform(-1, 1)));
+        const S dir[3] = {along, along, static_cast<S>(static_cast<float>(random.uniform(0.5, 1)))};
+        const double height = random.uniform(-1, 1) / flat, back = random.uniform(-4, 4), aside = random.uniform(-1.2, 1.2);
+        const S org[3] = {static_cast<S>(static_cast<float>(-height * 0.70710678 + aside * 0.70710678)),
+                          static_cast<S>(static_cast<float>(height * 0.70710678 + aside * 0.70710678)),
+                          static_cast<S>(static_cast<float>(back))};
+        Real oo[3], dd[3];
+        for (int row = 0; row < 3; ++row) {
+            oo[row] = dd[row] = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                oo[row] += Real{record.object_from_world[3 * row + axis]} * org[axis];
+                dd[row] += Real{record.object_from_world[3 * row + axis]} * dir[axis];
+            }
+        }
+        const Truth truth = truth_of(oo, dd, taper);
+        if (std::fabs(truth.gap) < 1e-4L || std::fabs(std::fabs(oo[1]) - 0.5L) < 1e-4L) continue;
+        const Vec3<F> o{F(org[0]), F(org[1]), F(org[2])}, d{F(dir[0]), F(dir[1]), F(dir[2])};
+        const ObjectRay<F> ray(record, o, d);
+        for (const bool as_cone : {true, false}) {
+            if (!as_cone && taper != 0) continue;
+            const Crossing<F> ends = (as_cone ? cross_cone(ray, Mask<F>(true)) : cross_cylinder(ray, Mask<F>(true))).ends;
+            const bool says_hit = any(ends.hit);
+            wrong += says_hit != truth.hit();
+            (truth.hit() ? hits : misses) += 1;
+            if (!truth.hit() || !says_hit) continue;
+            alignas(64) S t0[W];
+            lanecast::store(t0, ends.t0);
+            worst = std::max(worst, std::fabs(static_cast<double>(t0[0] - truth.t0())));
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(worst < 1e-4);
+    CHECK(hits > 1000u);
+    CHECK(misses > 1000u);
+}

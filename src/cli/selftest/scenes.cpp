@@ -53,6 +53,9 @@ Object random_object(PrimitiveKind kind, Placing placing, const glm::dvec3& posi
     // sizes stay comparable within a scene: a common scale is normalisation's business, and a translation that of all
     if (placing == Placing::scaled) {
         object.transformations.emplace_back(Scale{glm::dvec3(random.magnitude(0.03, 3))});
+    } else if (placing == Placing::rotated && random.chance(0.3)) { // to these, rays along a diagonal are level but for 1e-17
+        object.transformations.emplace_back(Rotation{{0, 1, 0}, random.uniform(0, 360)});
+        object.transformations.emplace_back(Rotation{{0, 0, 1}, 45.0 * (1 + 2 * random.below(4))});
     } else if (placing != Placing::translated) {
         const std::vector<Transformation> more = random_placing(placing, random);
         object.transformations.insert(object.transformations.end(), more.begin(), more.end());

@@ -67,14 +67,11 @@ struct ObjectRay {
     LANECAST_INLINE void refine() { dir = detail::multiply_exactly(affine, DoubleVec3<F>::from(dir_world)); }
     /// The point at t, rounded once.
     [[nodiscard]] LANECAST_INLINE Vec3<F> at(F t) const { return detail::multiply_exactly(affine, from_centre(t)); }
-    /// How far above y the point at t is, rounded once.
-    [[nodiscard]] LANECAST_INLINE F above(double y, F t) const {
-        return D::rounded(dot(detail::row_of<F>(affine, 1), from_centre(t)) - D::splat(y));
-    }
-    /// The t at height y. Found once more from the exact height there: of a ray that is nearly level org.y alone tells little.
+    /// The t at height y, from the exact height of the origin: of a ray that is nearly level org.y alone tells little. Where
+    /// dir.y is no more than rounding, t is huge, and its sign still tells whether the origin is above or below.
     [[nodiscard]] LANECAST_INLINE F meet_height(double y) const {
-        const F near = (F(static_cast<Scalar<F>>(y)) - org.y) / dir.y;
-        return near - above(y, near) / dir.y;
+        const DoubleVec3<F> org_centre = DoubleVec3<F>::from(org_world) - DoubleVec3<F>::splat(affine.translation);
+        return D::rounded(D::splat(y) - dot(detail::row_of<F>(affine, 1), org_centre)) / dir.y;
     }
     /// Where the true ray meets the body, this ray is at most so far from it. There |t dir_world| is at most the distance and
     /// `radius`; rounding may reach 18 u of all these, so that 170 u leave room for that of whoever asks.
