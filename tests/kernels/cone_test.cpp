@@ -317,6 +317,6 @@ TEST_CASE("cone, cylinder: rays that are level but for a residue of rounding") {
     }
     CHECK(wrong == 0);
     CHECK(worst < 1e-4);
-    CHECK(hits > 1000u);
-    CHECK(misses > 1000u);
+    CHECK(hits > misses / 10);
+    CHECK(misses > hits / 10);
 }
