@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include <time.h>
 
@@ -24,7 +26,7 @@ namespace {
     sample.width = options.width;
     sample.height = options.height;
     sample.tile_size = options.tile_size;
-    sample.frame_pixels = static_cast<double>(frame.x1 - frame.x0) * (frame.y1 - frame.y0);
+    sample.frame_pixels = pixels_of(frame);
     return sample;
 }
 
@@ -35,6 +37,65 @@ namespace {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// The curve of morton_order: coordinates differ in some highest bit, and the larger of these decides (Chan 2002).
+[[nodiscard]] bool morton_less(const Tile& a, const Tile& b) {
+    const auto x = static_cast<std::uint32_t>(a.x0 ^ b.x0), y = static_cast<std::uint32_t>(a.y0 ^ b.y0);
+    return std::bit_floor(x) > std::bit_floor(y) ? a.x0 < b.x0 : a.y0 < b.y0;
+}
+
+/// Of being one of `count` that are drawn: in proportion, but at most 1, and what is left by those is shared by the others.
+[[nodiscard]] std::vector<double> chances(const std::vector<double>& importance, std::size_t count) {
+    std::vector<double> chance(importance.size(), 0);
+    std::size_t certain = 0;
+    for (bool more = true; more;) {
+        more = false;
+        double rest = 0;
+        for (std::size_t i = 0; i < chance.size(); ++i)
+            if (chance[i] < 1) rest += importance[i];
+        const double step = rest / static_cast<double>(count - certain);
+        for (std::size_t i = 0; i < chance.size(); ++i) {
+            if (chance[i] >= 1) continue;
+            chance[i] = std::min(importance[i] / step, 1.0);
+            if (chance[i] < 1) continue;
+            ++certain;
+            more = true;
+        }
+    }
+    return chance;
+}
+
+/// By drawn tile: the inverse of its chance, corrected so that the weighted pixels of the uncertain tiles are those there are,
+/// and their weighted chances, too: then errors that are even and errors that are in proportion to the importance are both told
+/// exactly (Deville and Saerndal, Calibration Estimators in Survey Sampling, 1992).
+[[nodiscard]] std::vector<double> calibrated_weights(const TileSample& sample, const std::vector<double>& chance,
+                                                     const std::vector<std::size_t>& drawn) {
+    double pixels = 0, chances = 0; // of the uncertain ones: what the drawn ones lack
+    for (std::size_t i = 0; i < chance.size(); ++i) {
+        if (chance[i] >= 1) continue;
+        pixels += pixels_of(sample.tiles[i]);
+        chances += pixels_of(sample.tiles[i]) * chance[i];
+    }
+    double sum = 0, linear = 0, square = 0;
+    for (const std::size_t i : drawn) {
+        if (chance[i] >= 1) continue;
+        const double weighted = pixels_of(sample.tiles[i]) / chance[i];
+        sum += weighted;
+        linear += weighted * chance[i];
+        square += weighted * chance[i] * chance[i];
+    }
+    const double determinant = sum * square - linear * linear;
+    double constant = pixels / sum, slope = 0; // of the correction, over the chance
+    if (determinant > 1e-6 * sum * square) {
+        constant = (pixels * square - chances * linear) / determinant;
+        slope = (chances * sum - pixels * linear) / determinant;
+    }
+    const bool usable = std::ranges::all_of(drawn, [&](std::size_t i) { return constant + slope * chance[i] > 0.1; });
+    if (!usable) constant = pixels / sum, slope = 0;
+    std::vector<double> weights;
+    for (const std::size_t i : drawn) weights.push_back(chance[i] >= 1 ? 1 : (constant + slope * chance[i]) / chance[i]);
+    return weights;
+}
+
 } // namespace
 
 TileSample every_tile(const FrameOptions& options) {
@@ -43,6 +104,7 @@ TileSample every_tile(const FrameOptions& options) {
     sample.windows = {frame_of(options)};
     for (std::size_t i = 0; i < grid.count(); ++i) sample.tiles.push_back(grid.at(i));
     sample.window_of.assign(sample.tiles.size(), 0);
+    sample.weights = {1};
     return sample;
 }
 
@@ -62,12 +124,39 @@ TileSample spread_tiles(const FrameOptions& options, std::size_t count) {
     }
     std::sort(chosen.begin(), chosen.end());
     TileSample sample = empty_sample(options);
-    for (const std::size_t tile : chosen) {
-        sample.window_of.push_back(static_cast<std::uint32_t>(sample.tiles.size()));
-        sample.tiles.push_back(grid.at(tile));
-    }
+    for (const std::size_t tile : chosen) sample.tiles.push_back(grid.at(tile));
+    return each_alone(std::move(sample));
+}
+
+TileSample each_alone(TileSample sample) {
     sample.windows = sample.tiles;
+    sample.window_of.resize(sample.tiles.size());
+    std::iota(sample.window_of.begin(), sample.window_of.end(), std::uint32_t{0});
+    sample.weights.assign(sample.tiles.size(), sample.frame_pixels / sample.pixels());
     return sample;
+}
+
+TileSample draw_tiles(const TileSample& sample, const std::vector<double>& importance, std::size_t count) {
+    std::vector<std::size_t> order(sample.tiles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return morton_less(sample.tiles[a], sample.tiles[b]); });
+    const std::vector<double> chance = chances(importance, std::min(count, sample.tiles.size()));
+    std::vector<std::size_t> drawn;
+    double sum = 0.5;
+    for (const std::size_t i : order) {
+        const double before = sum;
+        if (chance[i] < 1) sum += chance[i];
+        if (chance[i] >= 1 || std::floor(sum) != std::floor(before)) drawn.push_back(i);
+    }
+    TileSample out = sample;
+    out.tiles.clear();
+    for (const std::size_t i : drawn) out.tiles.push_back(sample.tiles[i]);
+    out = each_alone(std::move(out));
+    out.weights = calibrated_weights(sample, chance, drawn);
+    const double scale = sample.frame_pixels / sample.pixels();
+    for (double& weight : out.weights) weight *= scale;
+    return out;
 }
 
 TileSample in_tiles_of(const TileSample& sample, int tile_size) {
@@ -98,7 +187,7 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
     const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.threads), sample.tiles.size()));
 
     std::atomic<std::size_t> next{0};
-    std::mutex mutex; // of rendered.stats and rendered.seconds
+    std::mutex mutex; // of rendered's stats and times
     parallel_for(threads, static_cast<std::size_t>(threads), [&](std::size_t) {
         RenderJob job = whole;
         job.pixel_order[0] = order.x.data();
@@ -106,17 +195,20 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
         job.pixel_order_count = order.count;
         const AlignedBytes scratch = make_aligned_bytes(kernels.scratch_bytes(job));
         TileStats stats{};
-        double seconds = 0;
+        double seconds = 0, frame_seconds = 0;
         for (std::size_t i = next.fetch_add(1); i < sample.tiles.size(); i = next.fetch_add(1)) {
             job.film = view(rendered.films[sample.window_of[i]]);
             const double begin = processor_time();
             const TileStats tile = kernels.render_tile(job, sample.tiles[i], scratch.get());
-            seconds += processor_time() - begin;
+            const double spent = processor_time() - begin;
+            seconds += spent;
+            frame_seconds += spent * sample.weights[sample.window_of[i]];
             add(stats, tile);
         }
         const std::lock_guard lock(mutex);
         add(rendered.stats, stats);
         rendered.seconds += seconds;
+        rendered.frame_seconds += frame_seconds;
     });
     return rendered;
 }

@@ -9,6 +9,8 @@
 
 namespace lanecast {
 
+[[nodiscard]] inline double pixels_of(const Tile& t) { return static_cast<double>(t.x1 - t.x0) * (t.y1 - t.y0); }
+
 struct TileSample {
     int width = 0, height = 0; ///< of the image, in pixels
     int tile_size = 32;
@@ -16,9 +18,10 @@ struct TileSample {
     std::vector<Tile> tiles;              ///< what is rendered
     std::vector<std::uint32_t> window_of; ///< by tile
     double frame_pixels = 0;              ///< of the frame that is sampled
+    std::vector<double> weights;          ///< by window: pixels of the frame that each of its pixels stands for
     [[nodiscard]] double pixels() const {
         double sum = 0;
-        for (const Tile& t : tiles) sum += static_cast<double>(t.x1 - t.x0) * (t.y1 - t.y0);
+        for (const Tile& t : tiles) sum += pixels_of(t);
         return sum;
     }
 };
@@ -29,13 +32,22 @@ struct TileSample {
 /// `count` tiles spread evenly over it, each with a film of its own; all of them if there are no more.
 [[nodiscard]] TileSample spread_tiles(const FrameOptions& options, std::size_t count);
 
+/// The same tiles, each with a film of its own.
+[[nodiscard]] TileSample each_alone(TileSample sample);
+
+/// `count` tiles of this sample, each with a film of its own, drawn in proportion to `importance`, which is above 0, by tile:
+/// those that make up more than a share of one in `count` for certain, of the others one after each equal step of the sum
+/// (systematic sampling, Madow 1949), along a curve that keeps neighbours together. Weights of the sample do not count.
+[[nodiscard]] TileSample draw_tiles(const TileSample& sample, const std::vector<double>& importance, std::size_t count);
+
 /// The same windows in tiles of at most this size.
 [[nodiscard]] TileSample in_tiles_of(const TileSample& sample, int tile_size);
 
 struct RenderedSample {
-    std::vector<Film> films; ///< by window
-    TileStats stats{};       ///< of all tiles
-    double seconds = 0;      ///< processor time of the threads inside tiles
+    std::vector<Film> films;  ///< by window
+    TileStats stats{};        ///< of all tiles
+    double seconds = 0;       ///< processor time of the threads inside tiles
+    double frame_seconds = 0; ///< of the frame, as far as the sample tells
 };
 
 /// As `render_frame` would. options.crop and options.stop do not count. Throws std::bad_alloc.

@@ -131,6 +131,39 @@ TEST_CASE("the bound holds on the frame, against the reference that the program 
     }
 }
 
+TEST_CASE("the bound holds where all there is lies between the tiles that are tried") {
+    const TemporaryDirectory directory;
+    const auto render = [&](const char* name, std::vector<std::string> options) {
+        options.insert(options.begin(), {"render", "scene.json", "--size", "384x384", "-o", name});
+        return run(options, {.directory = directory.path, .seconds = 900});
+    };
+    // a frame of 24x24 units and as many tiles, a mirror the size of one of them
+    const auto put_scene = [&](const char* position) {
+        put(directory.path / "scene.json",
+            R"({"camera": {"position": [0, 0, 10], "look_at": [0, 0, 0], "field": 100.388858, "background": [1, 1, 1]}, "objects": [
+            {"type": "plane", "position": [0, 0, -1], "normal": [0, 0, 1], "material": {"ambient": [0.5, 0.5, 0.5]}},
+            {"type": "sphere", "radius": 0.4, "position": )" +
+                std::string(position) + R"(, "material": {"reflective": [1, 1, 1]}}],
+            "lights": [{"type": "ambient", "color": [1, 1, 1]}]})");
+    };
+    for (const char* position : {"[-2.5, 7.5, 0]", "[4.5, -1.5, 0]"}) {
+        CAPTURE(position);
+        put_scene(position);
+        REQUIRE(
+            render("truth.exr", {"--precision", "balanced", "--aa", "grid", "--aa-samples", "8", "--depth", "8", "-q"}).code ==
+            0);
+        for (const auto& [metric, limit, bound] : {std::tuple{"rmse", "--max-rmse", "0.001"}, {"max", "--max-error", "0.25"}}) {
+            CAPTURE(metric);
+            const Outcome picked = render("picked.exr", {"--max-error", bound, "--error-metric", metric});
+            CAPTURE(picked.err);
+            REQUIRE(picked.code == 0);
+            const Outcome diff = run({"diff", "picked.exr", "truth.exr", limit, bound}, {.directory = directory.path});
+            CAPTURE(diff.out);
+            CHECK(diff.code == 0);
+        }
+    }
+}
+
 TEST_CASE("a looser bound is not dearer, and knobs given by hand stay") {
     const TemporaryDirectory directory;
     const auto rays = [&](const std::string& bound) {

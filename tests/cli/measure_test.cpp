@@ -200,6 +200,17 @@ TEST_CASE("errors: none of the same picture, known ones found, over all windows"
         CHECK(error.flip > 0);
         // one tile of four is bad: the frame may be worse than the sample
         CHECK((error.rmse_above > error.rmse) == !whole);
+        if (whole) continue;
+        TileSample certain = sample; // it stands for itself, the other three for all the rest
+        const double pixels = pixels_of(sample.tiles[0]);
+        certain.weights.assign(4, (sample.frame_pixels - pixels) / (sample.pixels() - pixels));
+        certain.weights[0] = 1;
+        const PictureError weighted = error_of(films, reference, certain);
+        CHECK(weighted.rmse == doctest::Approx(0.25 / std::sqrt(3 * sample.frame_pixels)));
+        CHECK(weighted.off == doctest::Approx(1 / sample.frame_pixels));
+        CHECK(weighted.flip == doctest::Approx(error.flip * sample.pixels() / sample.frame_pixels));
+        CHECK(weighted.rmse_above < error.rmse_above);
+        CHECK(weighted.rmse_above > weighted.rmse);
     }
     std::vector<Film> films{make_film(1, 1, {0, 0, 1, 1})};
     films[0].rgb[0][0] = 1.0f / 3;

@@ -7,6 +7,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <set>
 
 using namespace lanecast;
@@ -59,6 +62,81 @@ TEST_CASE("as many tiles as there are, or more, are the whole frame in one film"
     CHECK(crop.windows.front().x0 == 10);
 }
 
+TEST_CASE("drawn tiles: each once, the important ones for certain, and the weighted mean is the frame's") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    double bias = 0;
+    constexpr int draws = 2000;
+    for (int draw = 0; draw < draws; ++draw) {
+        const int width = 300 + static_cast<int>(random() % 900), height = 300 + static_cast<int>(random() % 900);
+        const TileSample all = each_alone(every_tile(sized(width, height)));
+        REQUIRE(all.windows.size() == all.tiles.size());
+        const std::size_t tiles = all.tiles.size(), count = 16 + random() % (tiles / 2);
+        std::vector<double> importance(tiles), values(tiles);
+        double even = 0;
+        for (std::size_t i = 0; i < tiles; ++i) {
+            even += importance[i] = 0.5 + uniform(random);
+            values[i] = uniform(random);
+        }
+        const std::size_t large = random() % tiles;
+        const bool certain = draw % 2 == 0;
+        if (certain) importance[large] = even;
+        const TileSample drawn = draw_tiles(all, importance, count);
+        CHECK(drawn.tiles.size() + 1 >= count);
+        CHECK(drawn.tiles.size() <= count + 1);
+        REQUIRE(drawn.windows.size() == drawn.tiles.size());
+        REQUIRE(drawn.weights.size() == drawn.tiles.size());
+        std::set<std::pair<int, int>> corners;
+        double frame = 0, frame_sum = 0, sum = 0;
+        for (std::size_t i = 0; i < tiles; ++i) frame_sum += values[i] * pixels_of(all.tiles[i]);
+        for (std::size_t k = 0; k < drawn.tiles.size(); ++k) {
+            const Tile& t = drawn.tiles[k];
+            corners.insert({t.x0, t.y0});
+            CHECK(drawn.window_of[k] == k);
+            const auto same = [&](const Tile& other) { return other.x0 == t.x0 && other.y0 == t.y0; };
+            const auto i = static_cast<std::size_t>(std::ranges::find_if(all.tiles, same) - all.tiles.begin());
+            REQUIRE(i < tiles);
+            frame += drawn.weights[k] * pixels_of(t);
+            sum += drawn.weights[k] * pixels_of(t) * values[i];
+        }
+        CHECK(corners.size() == drawn.tiles.size());
+        CHECK(frame == doctest::Approx(all.frame_pixels));
+        if (certain) CHECK(corners.count({all.tiles[large].x0, all.tiles[large].y0}) == 1);
+        bias += (sum / frame_sum - 1) / draws;
+    }
+    CHECK(std::fabs(bias) < 0.01);
+}
+
+TEST_CASE("drawn tiles tell a mean that the importance knows better than evenly spread ones") {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    double drawn_error = 0, spread_error = 0;
+    for (int draw = 0; draw < 200; ++draw) {
+        const FrameOptions options = sized(1024, 1024);
+        const TileSample all = each_alone(every_tile(options));
+        std::vector<double> value(all.tiles.size());
+        double mean = 0;
+        for (double& v : value) mean += v = std::pow(uniform(random), 8);
+        mean /= static_cast<double>(value.size());
+        std::vector<double> importance = value; // half of it, as errors are only guessed
+        for (double& v : importance) v = mean + v * (0.5 + uniform(random));
+        const auto relative_error = [&](const TileSample& sample) {
+            double sum = 0, weights = 0;
+            for (std::size_t k = 0; k < sample.tiles.size(); ++k) {
+                const Tile& t = sample.tiles[k];
+                sum += sample.weights[k] * value[static_cast<std::size_t>(t.y0 / 32 * 32 + t.x0 / 32)];
+                weights += sample.weights[k];
+            }
+            return std::fabs(sum / weights / mean - 1);
+        };
+        drawn_error += relative_error(draw_tiles(all, importance, 64)) / 200;
+        spread_error += relative_error(spread_tiles(options, 64)) / 200;
+    }
+    CAPTURE(drawn_error);
+    CAPTURE(spread_error);
+    CHECK(drawn_error < 0.4 * spread_error);
+}
+
 TEST_CASE("pixels are those of the frame, in every mode of anti-aliasing and in smaller tiles") {
     const SceneDescription scene = everything();
     const KernelTable& kernels = find_kernels("auto", Precision::balanced);
@@ -74,6 +152,7 @@ TEST_CASE("pixels are those of the frame, in every mode of anti-aliasing and in 
                                          in_tiles_of(every_tile(options), 64)}) {
             const RenderedSample rendered = render_sample(kernels, arrays, scene.camera, settings, options, sample);
             CHECK(rendered.seconds > 0);
+            CHECK(rendered.frame_seconds == doctest::Approx(rendered.seconds * sample.frame_pixels / sample.pixels()));
             CHECK(rendered.stats.kinds[0].rays > 0);
             for (const Film& film : rendered.films) CHECK(film_difference(frame.film, film) == "");
         }

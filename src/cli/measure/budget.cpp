@@ -13,6 +13,7 @@ namespace lanecast::trade {
 namespace {
 
 constexpr double reference_seconds = 5; ///< processor time per thread that the reference may take
+constexpr double looks_seconds = 1;     ///< the same of the pictures that tell where to look
 constexpr std::size_t least_tiles = 64, most_tiles = 160;
 /// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
 /// in common with any of the choices.
@@ -59,9 +60,11 @@ struct Search {
     std::vector<Ladder> ladders = make_ladders(*bench.scene, base, fixed, bench.isa, samples);
     bound_truth(bench, base, ladders);
     const Choice truth = true_choice(base, ladders);
-    bench.sample = affordable_sample(
-        bench, {truth},
-        {.seconds = reference_seconds * bench.options.threads, .least_tiles = least_tiles, .most_tiles = most_tiles});
+    bench.sample = telling_sample(
+        bench, truth, ladders,
+        {.seconds = reference_seconds * bench.options.threads, .least_tiles = least_tiles, .most_tiles = most_tiles},
+        looks_seconds * bench.options.threads,
+        [&](double rmse) { return budget.metric == ErrorMetric::flip ? rmse : rmse * rmse; });
     Laboratory laboratory(bench, render_reference(bench, truth));
     const RenderedSample second = render(bench, second_truth(truth, ladders).settings);
     const PictureError apart = error_of(second.films, laboratory.reference(), bench.sample);
@@ -93,8 +96,7 @@ struct Search {
         if (judge.at_most(search.laboratory.tried(from).error) > 0.7 * limit) from.float_file = true;
     }
     if (!accept(search.laboratory.tried(from))) {
-        const double seconds = search.laboratory.reference().seconds * frame_scale(search.laboratory.bench().sample);
-        const Step truth{search.truth, {}, seconds};
+        const Step truth{search.truth, {}, search.laboratory.reference().frame_seconds};
         if (accept(truth)) return truth;
         throw Error(ExitCode::usage, "--max-error " + number_text(limit) +
                                          ": no settings are known to keep it; the reference itself is " + "certain to " +

@@ -103,7 +103,7 @@ Times judge(const Bench& bench, Report& report, const ReferencePicture& referenc
         Trial& trial = report.trials[i];
         RenderedSample rendered = render(bench, trial.choice.settings);
         seconds[i].push_back(rendered.seconds);
-        trial.rays = static_cast<double>(ray_count(rendered.stats)) * frame_scale(bench.sample);
+        trial.rays = static_cast<double>(ray_count(rendered.stats)) / report.share;
         const auto judge_rows = [&](bool of_file) {
             for (KnobRow& row : report.knobs)
                 if (row.trial == i && (row.knob == Knob::file) == of_file)
@@ -128,7 +128,7 @@ void time_trials(const Bench& bench, Report& report, Times seconds, int repetiti
             seconds[i].push_back(render(bench, report.trials[i].choice.settings).seconds);
             spent += seconds[i].back();
         }
-    const double scale = frame_scale(bench.sample);
+    const double scale = 1 / report.share;
     for (std::size_t i = 0; i < report.trials.size(); ++i) {
         std::sort(seconds[i].begin(), seconds[i].end());
         Trial& trial = report.trials[i];
@@ -188,7 +188,7 @@ Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& 
 
     options.say("the reference: " + describe(report.truth, report.ladders) + "; " + sample_text(report));
     const ReferencePicture reference = render_reference(bench, report.truth);
-    report.truth_seconds = reference.seconds * frame_scale(bench.sample);
+    report.truth_seconds = reference.frame_seconds;
     judge_truth(bench, report, reference);
 
     Bench spread = bench;

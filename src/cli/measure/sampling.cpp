@@ -1,6 +1,10 @@
 #include "cli/measure/sampling.hpp"
 
+#include "render/compare.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace lanecast::trade {
 namespace {
@@ -18,6 +22,84 @@ namespace {
     }
 }
 
+[[nodiscard]] std::size_t affordable_tiles(double seconds, double seconds_of_pixels, int tile_size, std::size_t most_tiles) {
+    const double tiles = seconds / (seconds_of_pixels * tile_size * tile_size);
+    return static_cast<std::size_t>(std::min(tiles, static_cast<double>(most_tiles)));
+}
+
+/// Cheap pictures that differ in one knob alone.
+struct Look {
+    Choice truth;
+    std::vector<Choice> coarse;
+};
+
+/// What depth and cutoff leave out is seen with hard, black shadows, and what shadow rays leave out without mirrors and glass.
+[[nodiscard]] std::vector<Look> looks_of(const Choice& truth, const std::vector<Ladder>& ladders) {
+    constexpr int many_shadow_rays = 64;
+    Choice hard = truth;
+    hard.settings.precision = Precision::balanced;
+    hard.settings.anti_aliasing.mode = AntiAliasMode::off;
+    hard.settings.soft_shadows = 0;
+    hard.settings.transmissive_shadows = false;
+    std::vector<Look> looks{{hard, {}}}; // alone, it tells edges
+    for (const Ladder& ladder : ladders) {
+        Look look{hard, {}};
+        if (ladder.knob == Knob::soft_shadows) {
+            ladder.alone.set(look.truth);
+            look.truth.settings.soft_shadows = std::min(look.truth.settings.soft_shadows, many_shadow_rays);
+            look.truth.settings.depth = 0;
+        } else if (ladder.knob != Knob::depth && ladder.knob != Knob::cutoff) {
+            continue;
+        }
+        for (const std::size_t i : {std::size_t{0}, ladder.values.size() / 2}) {
+            look.coarse.push_back(look.truth);
+            ladder.values[i].set(look.coarse.back());
+        }
+        looks.push_back(look);
+    }
+    return looks;
+}
+
+/// Root of the mean square of differences between neighbouring pixels.
+[[nodiscard]] double contrast(const Film& film) {
+    const auto width = static_cast<std::size_t>(film.width), pixels = film.rgb[0].size();
+    double squares = 0;
+    for (const std::vector<float>& plane : film.rgb)
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double right = (i + 1) % width == 0 ? 0 : double{plane[i + 1]} - plane[i];
+            const double below = i + width >= pixels ? 0 : double{plane[i + width]} - plane[i];
+            squares += right * right + below * below;
+        }
+    return std::sqrt(squares / (3 * static_cast<double>(pixels)));
+}
+
+/// By tile: half of it even, half of it shared by all that the looks show, whatever the unit of each.
+[[nodiscard]] std::vector<double> importance(const Bench& bench, const std::vector<Look>& looks,
+                                             const std::function<double(double r)>& badness) {
+    const std::size_t tiles = bench.sample.tiles.size();
+    std::vector<std::vector<double>> kinds; // each of sum 1
+    const auto add_kind = [&](const auto& rmse_of) {
+        std::vector<double> kind(tiles);
+        for (std::size_t i = 0; i < tiles; ++i) kind[i] = badness(rmse_of(i));
+        const double sum = std::accumulate(kind.begin(), kind.end(), 0.0);
+        if (!(sum > 0 && std::isfinite(sum))) return;
+        for (double& v : kind) v /= sum;
+        kinds.push_back(std::move(kind));
+    };
+    for (const Look& look : looks) {
+        const std::vector<Film> truth = render(bench, look.truth.settings).films;
+        if (look.coarse.empty()) add_kind([&](std::size_t i) { return contrast(truth[i]); });
+        for (const Choice& choice : look.coarse) {
+            const std::vector<Film> coarse = render(bench, choice.settings).films;
+            add_kind([&](std::size_t i) { return compare(coarse[i], truth[i]).rmse; });
+        }
+    }
+    std::vector<double> shares(tiles, 1 / static_cast<double>(tiles));
+    for (std::size_t i = 0; i < tiles; ++i)
+        for (const std::vector<double>& kind : kinds) shares[i] += kind[i] / static_cast<double>(kinds.size());
+    return shares;
+}
+
 } // namespace
 
 TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pictures, const SampleLimits& limits) {
@@ -26,11 +108,26 @@ TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pict
     FrameOptions options = bench.options;
     const auto affordable = [&](int tile_size) {
         options.tile_size = tile_size;
-        const double tiles = limits.seconds / (seconds * tile_size * tile_size);
-        return static_cast<std::size_t>(std::min(tiles, static_cast<double>(limits.most_tiles)));
+        return affordable_tiles(limits.seconds, seconds, tile_size, limits.most_tiles);
     };
     if (const std::size_t tiles = affordable(16); tiles >= limits.least_tiles) return spread_tiles(options, tiles);
     return spread_tiles(options, std::max(affordable(8), limits.least_tiles / 4));
+}
+
+TileSample telling_sample(const Bench& bench, const Choice& truth, const std::vector<Ladder>& ladders, const SampleLimits& limits,
+                          double looks_seconds, const std::function<double(double r)>& badness) {
+    constexpr std::size_t most_looked_at = 8192;
+    TileSample even = affordable_sample(bench, {truth}, limits);
+    if (even.windows.size() == 1) return even;
+    const std::vector<Look> looks = looks_of(truth, ladders);
+    double seconds = 0;
+    for (const Look& look : looks) seconds += static_cast<double>(1 + look.coarse.size()) * seconds_of_pixel(bench, look.truth);
+    const std::size_t tiles = affordable_tiles(looks_seconds, seconds, even.tile_size, most_looked_at);
+    if (tiles < 2 * even.tiles.size()) return even;
+    Bench wide = bench;
+    wide.options.tile_size = even.tile_size;
+    wide.sample = each_alone(spread_tiles(wide.options, tiles));
+    return draw_tiles(wide.sample, importance(wide, looks, badness), even.tiles.size());
 }
 
 } // namespace lanecast::trade

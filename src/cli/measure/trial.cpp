@@ -17,15 +17,19 @@
 namespace lanecast::trade {
 namespace {
 
-/// The frame's mean may lie this far above that of the sample: two standard errors, for n tiles of the frame's N.
-[[nodiscard]] double above(const std::vector<double>& by_tile, double share_of_frame) {
+/// The frame's mean may lie this far above that of the sample: two standard errors of a weighted mean (Cochran, Sampling
+/// Techniques, 6.4), to which tiles that stand for themselves alone add nothing.
+[[nodiscard]] double above(const std::vector<double>& by_tile, double mean, const TileSample& sample) {
     const auto n = static_cast<double>(by_tile.size());
-    double mean = 0, square = 0;
-    for (const double v : by_tile) mean += v / n;
-    for (const double v : by_tile) square += (v - mean) * (v - mean);
     if (n < 2) return 0;
+    double square = 0, weights = 0;
+    for (std::size_t i = 0; i < by_tile.size(); ++i) {
+        const double weight = sample.weights[i], off = weight * (by_tile[i] - mean);
+        square += off * off * std::max(0.0, 1 - 1 / weight);
+        weights += weight;
+    }
     const double errors = n < 30 ? 2.3 : 2; // Student's t: few tiles tell their spread badly
-    return errors * std::sqrt(square / (n - 1) / n * std::max(0.0, 1 - share_of_frame));
+    return errors * std::sqrt(square * n / (n - 1)) / weights;
 }
 
 [[nodiscard]] double process_time() {
@@ -64,12 +68,12 @@ PictureError error_of(const std::vector<Film>& films, const ReferencePicture& re
     std::vector<double> mse_by_tile, flip_by_tile;
     for (std::size_t i = 0; i < films.size(); ++i) {
         const Comparison c = compare(films[i], reference.films[i]);
-        const auto n = static_cast<double>(c.pixels);
+        const double weight = sample.weights[i], n = weight * static_cast<double>(c.pixels);
         const double seen = mean_flip(see(films[i]), reference.seen[i]);
         pixels += n;
         squares += c.rmse * c.rmse * n;
         relative += c.relmse * n;
-        off += static_cast<double>(c.off_pixels);
+        off += weight * static_cast<double>(c.off_pixels);
         flip += seen * n;
         error.largest = std::max(error.largest, c.largest);
         mse_by_tile.push_back(c.rmse * c.rmse);
@@ -79,9 +83,9 @@ PictureError error_of(const std::vector<Film>& films, const ReferencePicture& re
     error.relmse = relative / pixels;
     error.off = off / pixels;
     error.flip = flip / pixels;
-    const double share = sample.pixels() / sample.frame_pixels;
-    error.rmse_above = std::sqrt(squares / pixels + above(mse_by_tile, share));
-    error.flip_above = error.flip + above(flip_by_tile, share);
+    const double mse = squares / pixels;
+    error.rmse_above = std::sqrt(mse + above(mse_by_tile, mse, sample));
+    error.flip_above = error.flip + above(flip_by_tile, error.flip, sample);
     return error;
 }
 
@@ -106,7 +110,7 @@ ReferencePicture render_reference(const Bench& bench, const Choice& choice) {
     small.sample = in_tiles_of(bench.sample, small_tile);
     RenderedSample rendered = render(small, choice.settings);
     ReferencePicture reference;
-    reference.seconds = rendered.seconds;
+    reference.frame_seconds = rendered.frame_seconds;
     reference.films = std::move(rendered.films);
     round_as_file(reference.films, choice.float_file);
     for (const Film& film : reference.films) reference.seen.push_back(see(film));
@@ -115,7 +119,7 @@ ReferencePicture render_reference(const Bench& bench, const Choice& choice) {
 
 ReferencePicture cut(const ReferencePicture& reference, const TileSample& sample) {
     ReferencePicture out;
-    out.seconds = reference.seconds;
+    out.frame_seconds = reference.frame_seconds;
     for (const Tile& window : sample.windows) {
         const Film& from = *std::ranges::find_if(reference.films, [&](const Film& film) {
             return film.x0 <= window.x0 && film.y0 <= window.y0 && film.x0 + film.width >= window.x1 &&
@@ -141,7 +145,7 @@ double time_of_file(const Bench& bench, const std::vector<Film>& films, bool flo
     const double begin = process_time();
     write_exr(file, film, {.float_pixels = float_file, .threads = 1, .attributes = {}});
     interrupt.check();
-    return (process_time() - begin) * frame_scale(bench.sample);
+    return (process_time() - begin) * bench.sample.frame_pixels / bench.sample.pixels();
 }
 
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders) {
@@ -211,7 +215,5 @@ Choice second_truth(const Choice& truth, const std::vector<Ladder>& ladders) {
         }
     return second;
 }
-
-double frame_scale(const TileSample& sample) { return sample.frame_pixels / sample.pixels(); }
 
 } // namespace lanecast::trade

@@ -24,7 +24,7 @@ struct PictureError {
 struct ReferencePicture {
     std::vector<Film> films;
     std::vector<SeenPicture> seen; ///< by window
-    double seconds = 0;            ///< processor time it took
+    double frame_seconds = 0;      ///< processor time a whole frame of it would take
 };
 
 [[nodiscard]] PictureError error_of(const std::vector<Film>& films, const ReferencePicture& reference, const TileSample& sample);
@@ -58,8 +58,5 @@ void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& la
 /// The truth again with two thirds of its samples per side, of its shadow rays and of its depth, four times its cutoff, in float:
 /// as far as these were to be turned.
 [[nodiscard]] Choice second_truth(const Choice& truth, const std::vector<Ladder>& ladders);
-
-/// From the sample to the frame.
-[[nodiscard]] double frame_scale(const TileSample& sample);
 
 } // namespace lanecast::trade

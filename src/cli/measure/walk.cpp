@@ -21,15 +21,15 @@ const Step& Laboratory::tried(const Choice& choice) {
     const std::string name = settings_json(choice.settings) + (choice.float_file ? " float" : " half");
     if (const auto found = steps_.find(name); found != steps_.end()) return found->second;
     RenderedSample rendered = render(bench_, choice.settings);
-    double seconds = rendered.seconds, spent = rendered.seconds;
+    double seconds = rendered.frame_seconds, spent = rendered.seconds;
     for (int i = 1; i < most_repetitions && spent < least_seconds; ++i) {
-        const double again = render(bench_, choice.settings).seconds;
-        seconds = std::min(seconds, again);
-        spent += again;
+        const RenderedSample again = render(bench_, choice.settings);
+        seconds = std::min(seconds, again.frame_seconds);
+        spent += again.seconds;
     }
     round_as_file(rendered.films, choice.float_file);
     const PictureError error = error_of(rendered.films, reference_, bench_.sample);
-    return steps_.emplace(name, Step{choice, error, seconds * frame_scale(bench_.sample)}).first->second;
+    return steps_.emplace(name, Step{choice, error, seconds}).first->second;
 }
 
 std::vector<Step> walk(Laboratory& laboratory, const std::vector<Ladder>& ladders, const Choice& from, const Badness& badness,
