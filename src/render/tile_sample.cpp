@@ -195,20 +195,22 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
         job.pixel_order_count = order.count;
         const AlignedBytes scratch = make_aligned_bytes(kernels.scratch_bytes(job));
         TileStats stats{};
-        double seconds = 0, frame_seconds = 0;
+        double seconds = 0, frame_seconds = 0, frame_rays = 0;
         for (std::size_t i = next.fetch_add(1); i < sample.tiles.size(); i = next.fetch_add(1)) {
             job.film = view(rendered.films[sample.window_of[i]]);
             const double begin = processor_time();
             const TileStats tile = kernels.render_tile(job, sample.tiles[i], scratch.get());
-            const double spent = processor_time() - begin;
+            const double spent = processor_time() - begin, weight = sample.weights[sample.window_of[i]];
             seconds += spent;
-            frame_seconds += spent * sample.weights[sample.window_of[i]];
+            frame_seconds += weight * spent;
+            frame_rays += weight * static_cast<double>(ray_count(tile));
             add(stats, tile);
         }
         const std::lock_guard lock(mutex);
         add(rendered.stats, stats);
         rendered.seconds += seconds;
         rendered.frame_seconds += frame_seconds;
+        rendered.frame_rays += frame_rays;
     });
     return rendered;
 }

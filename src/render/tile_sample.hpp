@@ -48,6 +48,7 @@ struct RenderedSample {
     TileStats stats{};        ///< of all tiles
     double seconds = 0;       ///< processor time of the threads inside tiles
     double frame_seconds = 0; ///< of the frame, as far as the sample tells
+    double frame_rays = 0;    ///< the same
 };
 
 /// As `render_frame` would. options.crop and options.stop do not count. Throws std::bad_alloc.

@@ -118,8 +118,8 @@ TEST_CASE("--quick samples the frame by what its reference costs, and says what 
                                 {.seconds = 600});
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(contains(outcome.out, " spread over the frame, "));
-    CHECK(contains(outcome.err, " spread over the frame, "));
+    CHECK(contains(outcome.out, " % of the frame's pixels"));
+    CHECK(contains(outcome.err, " % of the frame's pixels"));
 }
 
 TEST_CASE("interrupted in the middle of a picture in double, it ends at once and leaves the old files") {

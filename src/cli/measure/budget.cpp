@@ -13,7 +13,6 @@ namespace lanecast::trade {
 namespace {
 
 constexpr double reference_seconds = 5; ///< processor time per thread that the reference may take
-constexpr double looks_seconds = 1;     ///< the same of the pictures that tell where to look
 constexpr std::size_t least_tiles = 64, most_tiles = 160;
 /// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
 /// in common with any of the choices.
@@ -60,11 +59,9 @@ struct Search {
     std::vector<Ladder> ladders = make_ladders(*bench.scene, base, fixed, bench.isa, samples);
     bound_truth(bench, base, ladders);
     const Choice truth = true_choice(base, ladders);
-    bench.sample = telling_sample(
-        bench, truth, ladders,
-        {.seconds = reference_seconds * bench.options.threads, .least_tiles = least_tiles, .most_tiles = most_tiles},
-        looks_seconds * bench.options.threads,
-        [&](double rmse) { return budget.metric == ErrorMetric::flip ? rmse : rmse * rmse; });
+    bench.sample = affordable_sample(bench, {truth}, truth, ladders,
+                                     {.seconds = reference_seconds, .least_tiles = least_tiles, .most_tiles = most_tiles},
+                                     [&](double rmse) { return budget.metric == ErrorMetric::flip ? rmse : rmse * rmse; });
     Laboratory laboratory(bench, render_reference(bench, truth));
     const RenderedSample second = render(bench, second_truth(truth, ladders).settings);
     const PictureError apart = error_of(second.films, laboratory.reference(), bench.sample);

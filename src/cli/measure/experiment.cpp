@@ -38,12 +38,13 @@ void list_knobs(Report& report) {
     }
 }
 
-double squared_rmse(const PictureError& error) { return error.rmse * error.rmse; }
+double squared(double rmse) { return rmse * rmse; }
 
 /// From the dearest settings to the cheapest: at most so many, spread over the logarithm of the time.
 void list_walk(Report& report, Laboratory& laboratory) {
-    const std::vector<Step> steps = walk(laboratory, report.ladders, dearest_choice(report.base, report.ladders), squared_rmse,
-                                         [](const Step&) { return true; });
+    const std::vector<Step> steps = walk(
+        laboratory, report.ladders, dearest_choice(report.base, report.ladders),
+        [](const PictureError& error) { return squared(error.rmse); }, [](const Step&) { return true; });
     const double most = std::log(steps.front().seconds), least = std::log(steps.back().seconds);
     double next = most;
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -92,18 +93,21 @@ OwnReferences own_references(const Bench& bench, const Report& report) {
     return own;
 }
 
-/// Processor time of each repetition of a trial, of the sample.
-using Times = std::vector<std::vector<double>>;
+struct Times {
+    std::vector<std::vector<double>> of_frame; ///< processor time, of each repetition of a trial
+    double spent = 0;                          ///< on the sample
+};
 
 /// All errors, from the first rendering of each trial. What a file rounds away is the error of the knob `file` alone.
 Times judge(const Bench& bench, Report& report, const ReferencePicture& reference) {
-    Times seconds(report.trials.size());
+    Times times{std::vector<std::vector<double>>(report.trials.size())};
     const OwnReferences own = own_references(bench, report);
     for (std::size_t i = 0; i < report.trials.size(); ++i) {
         Trial& trial = report.trials[i];
         RenderedSample rendered = render(bench, trial.choice.settings);
-        seconds[i].push_back(rendered.seconds);
-        trial.rays = static_cast<double>(ray_count(rendered.stats)) / report.share;
+        times.of_frame[i].push_back(rendered.frame_seconds);
+        times.spent += rendered.seconds;
+        trial.rays = rendered.frame_rays;
         const auto judge_rows = [&](bool of_file) {
             for (KnobRow& row : report.knobs)
                 if (row.trial == i && (row.knob == Knob::file) == of_file)
@@ -114,27 +118,26 @@ Times judge(const Bench& bench, Report& report, const ReferencePicture& referenc
         judge_rows(true);
         trial.error = error_of(rendered.films, reference, bench.sample);
     }
-    return seconds;
+    return times;
 }
 
 /// All trials in turn, in every repetition: a machine that slows down slows all of them down. `most_seconds`: no repetition is
 /// begun that would probably end later.
-void time_trials(const Bench& bench, Report& report, Times seconds, int repetitions, double most_seconds) {
-    double spent = 0;
-    for (const std::vector<double>& first : seconds) spent += first.front();
-    const double one = spent;
-    for (report.repetitions = 1; report.repetitions < repetitions && spent + one <= most_seconds; ++report.repetitions)
+void time_trials(const Bench& bench, Report& report, Times times, int repetitions, double most_seconds) {
+    const double one = times.spent;
+    for (report.repetitions = 1; report.repetitions < repetitions && times.spent + one <= most_seconds; ++report.repetitions)
         for (std::size_t i = 0; i < report.trials.size(); ++i) {
-            seconds[i].push_back(render(bench, report.trials[i].choice.settings).seconds);
-            spent += seconds[i].back();
+            const RenderedSample rendered = render(bench, report.trials[i].choice.settings);
+            times.of_frame[i].push_back(rendered.frame_seconds);
+            times.spent += rendered.seconds;
         }
-    const double scale = 1 / report.share;
     for (std::size_t i = 0; i < report.trials.size(); ++i) {
-        std::sort(seconds[i].begin(), seconds[i].end());
+        std::vector<double>& seconds = times.of_frame[i];
+        std::sort(seconds.begin(), seconds.end());
         Trial& trial = report.trials[i];
-        trial.seconds = scale * seconds[i][seconds[i].size() / 2];
-        trial.low = scale * seconds[i].front();
-        trial.high = scale * seconds[i].back();
+        trial.seconds = seconds[seconds.size() / 2];
+        trial.low = seconds.front();
+        trial.high = seconds.back();
     }
 }
 
@@ -156,8 +159,8 @@ void judge_truth(const Bench& bench, Report& report, const ReferencePicture& ref
 TileSample sample_of(const Bench& bench, const Report& report, const ExperimentOptions& options) {
     if (options.tiles) return spread_tiles(bench.options, *options.tiles);
     if (!options.seconds) return every_tile(bench.options);
-    return affordable_sample(bench, truths(report),
-                             {.seconds = *options.seconds * bench.options.threads, .least_tiles = 32, .most_tiles = 1024});
+    return affordable_sample(bench, truths(report), report.truth, report.ladders,
+                             {.seconds = *options.seconds, .least_tiles = 32, .most_tiles = 1024}, squared);
 }
 
 } // namespace
@@ -165,8 +168,8 @@ TileSample sample_of(const Bench& bench, const Report& report, const ExperimentO
 std::string sample_text(const Report& report) {
     const std::string size = std::to_string(report.tile_size);
     return report.whole ? "every tile"
-                        : counted(report.tiles, "tile") + " of " + size + "x" + size + " spread over the frame, " +
-                              fixed(100 * report.share, 1) + " % of its pixels";
+                        : counted(report.tiles, "tile") + " of " + size + "x" + size + ", " + fixed(100 * report.share, 1) +
+                              " % of the frame's pixels";
 }
 
 Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& options) {
@@ -211,7 +214,9 @@ Report run_experiment(Bench bench, const Choice& base, const ExperimentOptions& 
     report.front = front_of(seconds, errors);
 
     options.say("single rays");
-    const RayLists rays = collect_rays(bench, base.settings, options.rays);
+    Bench frame = bench; // their rates are of the frame, too
+    frame.sample = every_tile(bench.options);
+    const RayLists rays = collect_rays(frame, base.settings, options.rays);
     const Ladder presets = make_ladders(*bench.scene, base, {}, bench.isa, options.truth_samples).front();
     for (const KnobValue& preset : presets.values) {
         Choice choice;

@@ -50,7 +50,7 @@ struct Report {
     std::vector<RayErrors> rays;
 };
 
-/// "40 tiles of 16x16 spread over the frame, 3.9 % of its pixels".
+/// "40 tiles of 16x16, 3.9 % of the frame's pixels".
 [[nodiscard]] std::string sample_text(const Report& report);
 
 struct ExperimentOptions {

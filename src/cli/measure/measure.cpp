@@ -90,8 +90,7 @@ void add_measure(CLI::App& app, Command& chosen) {
     const auto request = std::make_shared<MeasureRequest>();
     MeasureRequest& r = *request;
     add_scene_options(*command, r.frame);
-    CLI::Option* const quick =
-        command->add_flag("--quick", r.quick, "As many tiles, spread over the frame, as can be measured in about a minute");
+    CLI::Option* const quick = command->add_flag("--quick", r.quick, "As many tiles as can be measured in about a minute");
     add_number_option(*command, "--tiles", "Only N tiles of 32x32 pixels, spread over the frame", tiles_key, [&r](double v) {
         r.experiment.tiles = static_cast<std::size_t>(v);
     })->excludes(quick);

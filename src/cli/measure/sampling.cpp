@@ -9,6 +9,9 @@
 namespace lanecast::trade {
 namespace {
 
+constexpr double looks_seconds = 1; ///< processor time per thread of the pictures that tell where to look
+constexpr std::size_t most_looked_at = 8192;
+
 /// Found on a few scattered pixels, and on more until the clock has something to measure.
 [[nodiscard]] double seconds_of_pixel(Bench bench, const Choice& choice) {
     constexpr double enough_seconds = 0.1;
@@ -22,9 +25,24 @@ namespace {
     }
 }
 
-[[nodiscard]] std::size_t affordable_tiles(double seconds, double seconds_of_pixels, int tile_size, std::size_t most_tiles) {
-    const double tiles = seconds / (seconds_of_pixels * tile_size * tile_size);
+/// `seconds_of_pixels`: of one pixel of all pictures.
+[[nodiscard]] std::size_t affordable_tiles(const FrameOptions& options, double seconds, double seconds_of_pixels,
+                                           std::size_t most_tiles) {
+    const double tiles = seconds * options.threads / (seconds_of_pixels * options.tile_size * options.tile_size);
     return static_cast<std::size_t>(std::min(tiles, static_cast<double>(most_tiles)));
+}
+
+/// Spread over the frame.
+[[nodiscard]] TileSample even_sample(const Bench& bench, const std::vector<Choice>& pictures, const SampleLimits& limits) {
+    double seconds = 0;
+    for (const Choice& picture : pictures) seconds += seconds_of_pixel(bench, picture);
+    FrameOptions options = bench.options;
+    const auto affordable = [&](int tile_size) {
+        options.tile_size = tile_size;
+        return affordable_tiles(options, limits.seconds, seconds, limits.most_tiles);
+    };
+    if (const std::size_t tiles = affordable(16); tiles >= limits.least_tiles) return spread_tiles(options, tiles);
+    return spread_tiles(options, std::max(affordable(8), limits.least_tiles / 4));
 }
 
 /// Cheap pictures that differ in one knob alone.
@@ -102,30 +120,18 @@ struct Look {
 
 } // namespace
 
-TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pictures, const SampleLimits& limits) {
-    double seconds = 0;
-    for (const Choice& picture : pictures) seconds += seconds_of_pixel(bench, picture);
-    FrameOptions options = bench.options;
-    const auto affordable = [&](int tile_size) {
-        options.tile_size = tile_size;
-        return affordable_tiles(limits.seconds, seconds, tile_size, limits.most_tiles);
-    };
-    if (const std::size_t tiles = affordable(16); tiles >= limits.least_tiles) return spread_tiles(options, tiles);
-    return spread_tiles(options, std::max(affordable(8), limits.least_tiles / 4));
-}
-
-TileSample telling_sample(const Bench& bench, const Choice& truth, const std::vector<Ladder>& ladders, const SampleLimits& limits,
-                          double looks_seconds, const std::function<double(double r)>& badness) {
-    constexpr std::size_t most_looked_at = 8192;
-    TileSample even = affordable_sample(bench, {truth}, limits);
+TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pictures, const Choice& truth,
+                             const std::vector<Ladder>& ladders, const SampleLimits& limits,
+                             const std::function<double(double rmse)>& badness) {
+    const TileSample even = even_sample(bench, pictures, limits);
     if (even.windows.size() == 1) return even;
     const std::vector<Look> looks = looks_of(truth, ladders);
     double seconds = 0;
     for (const Look& look : looks) seconds += static_cast<double>(1 + look.coarse.size()) * seconds_of_pixel(bench, look.truth);
-    const std::size_t tiles = affordable_tiles(looks_seconds, seconds, even.tile_size, most_looked_at);
-    if (tiles < 2 * even.tiles.size()) return even;
     Bench wide = bench;
     wide.options.tile_size = even.tile_size;
+    const std::size_t tiles = affordable_tiles(wide.options, looks_seconds, seconds, most_looked_at);
+    if (tiles < 2 * even.tiles.size()) return even;
     wide.sample = each_alone(spread_tiles(wide.options, tiles));
     return draw_tiles(wide.sample, importance(wide, looks, badness), even.tiles.size());
 }
