@@ -51,17 +51,13 @@ struct Look {
     std::vector<Choice> coarse;
 };
 
-/// What depth and cutoff leave out is seen with hard, black shadows, and what shadow rays leave out without mirrors and glass.
+/// What shadow rays leave out is seen without mirrors and glass.
 [[nodiscard]] std::vector<Look> looks_of(const Choice& truth, const std::vector<Ladder>& ladders) {
     constexpr int many_shadow_rays = 64;
-    Choice hard = truth;
-    hard.settings.precision = Precision::balanced;
-    hard.settings.anti_aliasing.mode = AntiAliasMode::off;
-    hard.settings.soft_shadows = 0;
-    hard.settings.transmissive_shadows = false;
-    std::vector<Look> looks{{hard, {}}}; // alone, it tells edges
+    const Choice plain{bare(truth.settings), truth.float_file};
+    std::vector<Look> looks{{plain, {}}}; // alone, it tells edges
     for (const Ladder& ladder : ladders) {
-        Look look{hard, {}};
+        Look look{plain, {}};
         if (ladder.knob == Knob::soft_shadows) {
             ladder.alone.set(look.truth);
             look.truth.settings.soft_shadows = std::min(look.truth.settings.soft_shadows, many_shadow_rays);

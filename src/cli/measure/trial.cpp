@@ -148,6 +148,14 @@ double time_of_file(const Bench& bench, const std::vector<Film>& films, bool flo
     return (process_time() - begin) * bench.sample.frame_pixels / bench.sample.pixels();
 }
 
+RenderSettings bare(RenderSettings settings) {
+    settings.precision = Precision::balanced;
+    settings.anti_aliasing.mode = AntiAliasMode::off;
+    settings.soft_shadows = 0;
+    settings.transmissive_shadows = false;
+    return settings;
+}
+
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders) {
     const auto depth = std::ranges::find(ladders, Knob::depth, &Ladder::knob);
     const auto cutoff = std::ranges::find(ladders, Knob::cutoff, &Ladder::knob);
@@ -156,11 +164,7 @@ void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& la
     Bench few = bench;
     few.options.tile_size = 2;
     few.sample = spread_tiles(few.options, places);
-    RenderSettings settings = true_choice(base, ladders).settings;
-    settings.precision = Precision::balanced;
-    settings.anti_aliasing.mode = AntiAliasMode::off;
-    settings.soft_shadows = 0;
-    settings.transmissive_shadows = false;
+    RenderSettings settings = bare(true_choice(base, ladders).settings);
     const auto affordable = [&](const RenderSettings& tried) {
         const TileStats stats = render(few, tried).stats;
         const auto rays = [&](RayKind kind) { return static_cast<double>(stats.kinds[static_cast<int>(kind)].rays); };

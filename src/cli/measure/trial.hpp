@@ -51,6 +51,9 @@ void round_as_file(std::vector<Film>& films, bool float_file);
 /// Processor time of encoding a file with these pixels, scaled to the frame.
 [[nodiscard]] double time_of_file(const Bench& bench, const std::vector<Film>& films, bool float_file);
 
+/// Cheap settings that still show what depth and cutoff leave out: float, without anti-aliasing, shadows hard and black.
+[[nodiscard]] RenderSettings bare(RenderSettings settings);
+
 /// Where glass and mirrors face each other, rays are nearly without end: makes the largest depth and then the smallest cutoff the
 /// truth that keep them to ten mirrored and transmitted ones per camera ray.
 void bound_truth(const Bench& bench, const Choice& base, std::vector<Ladder>& ladders);
