@@ -37,6 +37,13 @@ namespace {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+[[nodiscard]] PixelOrder sparse_order(int side, int stride) {
+    PixelOrder order = morton_order((side + stride - 1) / stride);
+    for (std::int32_t& x : order.x) x *= stride;
+    for (std::int32_t& y : order.y) y *= stride;
+    return order;
+}
+
 /// The curve of morton_order: coordinates differ in some highest bit, and the larger of these decides (Chan 2002).
 [[nodiscard]] bool morton_less(const Tile& a, const Tile& b) {
     const auto x = static_cast<std::uint32_t>(a.x0 ^ b.x0), y = static_cast<std::uint32_t>(a.y0 ^ b.y0);
@@ -150,6 +157,7 @@ TileSample draw_tiles(const TileSample& sample, const std::vector<double>& impor
         if (chance[i] >= 1 || std::floor(sum) != std::floor(before)) drawn.push_back(i);
     }
     TileSample out = sample;
+    out.stride = 1;
     out.tiles.clear();
     for (const std::size_t i : drawn) out.tiles.push_back(sample.tiles[i]);
     out = each_alone(std::move(out));
@@ -183,7 +191,7 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
     same.height = sample.height;
     same.tile_size = sample.tile_size;
     const RenderJob whole = make_job(scene, camera, settings, same);
-    const PixelOrder order = pixel_order(settings, same);
+    const PixelOrder order = sample.stride == 1 ? pixel_order(settings, same) : sparse_order(sample.tile_size, sample.stride);
     const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.threads), sample.tiles.size()));
 
     std::atomic<std::size_t> next{0};

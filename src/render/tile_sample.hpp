@@ -14,6 +14,7 @@ namespace lanecast {
 struct TileSample {
     int width = 0, height = 0; ///< of the image, in pixels
     int tile_size = 32;
+    int stride = 1;                       ///< each so many-th row and column of a tile is rendered, the rest is 0; not with edge
     std::vector<Tile> windows;            ///< of the films
     std::vector<Tile> tiles;              ///< what is rendered
     std::vector<std::uint32_t> window_of; ///< by tile
@@ -37,7 +38,8 @@ struct TileSample {
 
 /// `count` tiles of this sample, each with a film of its own, drawn in proportion to `importance`, which is above 0, by tile:
 /// those that make up more than a share of one in `count` for certain, of the others one after each equal step of the sum
-/// (systematic sampling, Madow 1949), along a curve that keeps neighbours together. Weights of the sample do not count.
+/// (systematic sampling, Madow 1949), along a curve that keeps neighbours together. They are rendered whole;
+/// stride and weights of the sample do not count.
 [[nodiscard]] TileSample draw_tiles(const TileSample& sample, const std::vector<double>& importance, std::size_t count);
 
 /// The same windows in tiles of at most this size.

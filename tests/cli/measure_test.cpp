@@ -1,5 +1,6 @@
 // What `measure` measures with: knobs, errors, the walk, the front, and that wrong hits are found.
 #include "cli/measure/experiment.hpp"
+#include "cli/measure/sampling.hpp"
 
 #include "render/dispatch.hpp"
 #include "render/render_support.hpp"
@@ -218,6 +219,53 @@ TEST_CASE("errors: none of the same picture, known ones found, over all windows"
     CHECK(films[0].rgb[0][0] == 1.0f / 3);
     round_as_file(films, false);
     CHECK(films[0].rgb[0][0] == 0.333251953125f);
+}
+
+TEST_CASE("a sample tells what depth changes, though it lies in few tiles and the machine may be as slow as it likes") {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> place(-8, 8);
+    for (int draw = 0; draw < (test::fewer > 1 ? 2 : 8); ++draw) {
+        SceneDescription scene;
+        scene.camera.position = {0, 0, 10};
+        scene.camera.background = {1, 1, 1};
+        scene.camera.field = 100;
+        scene.lights.push_back(AmbientLight{{1, 1, 1}});
+        scene.objects.resize(2);
+        scene.objects[0].shape = Plane{{0, 0, -1}, {0, 0, 1}};
+        scene.objects[0].material.ambient = {0.5, 0.5, 0.5};
+        scene.objects[1].shape = Sphere{0.4, {place(random), place(random), 0}};
+        scene.objects[1].material.reflective = {1, 1, 1};
+        Choice base{scene.render, false};
+        base.settings.depth = 8;
+        const SceneArrays arrays = flatten(scene, base.settings, 2);
+        Bench bench;
+        bench.scene = &arrays;
+        bench.camera = &scene.camera;
+        bench.options.width = bench.options.height = 384;
+        bench.options.threads = 2;
+        const std::vector<Ladder> ladders = make_ladders(arrays, base, {}, bench.isa, 4);
+        const auto square_error = [&] { // of depth 0
+            RenderSettings deep = bare(base.settings), flat = deep;
+            flat.depth = 0;
+            const ReferencePicture truth = render_reference(bench, {deep, true});
+            const double rmse = error_of(render(bench, flat).films, truth, bench.sample).rmse;
+            return rmse * rmse;
+        };
+        bench.sample = every_tile(bench.options);
+        const double of_frame = square_error();
+        REQUIRE(of_frame > 0);
+        for (const double seconds : {1e-9, 0.05, 5.0}) {
+            CAPTURE(draw);
+            CAPTURE(seconds);
+            bench.sample = affordable_sample(bench, {true_choice(base, ladders)}, true_choice(base, ladders), ladders,
+                                             {.seconds = seconds, .least_tiles = 64, .most_tiles = 160},
+                                             [](double rmse) { return rmse * rmse; });
+            CHECK(bench.sample.tiles.size() <= 162);
+            const double of_sample = square_error();
+            CHECK(of_sample > of_frame / 2);
+            CHECK(of_sample < of_frame * 2);
+        }
+    }
 }
 
 TEST_CASE("single rays: the reference agrees with itself, balanced nearly, and what is broken is told by kind") {

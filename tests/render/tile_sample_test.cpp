@@ -158,3 +158,35 @@ TEST_CASE("pixels are those of the frame, in every mode of anti-aliasing and in 
         }
     }
 }
+
+TEST_CASE("with a stride, every so many-th pixel of each tile is the frame's, and the rest is black") {
+    const SceneDescription scene = everything();
+    RenderSettings settings = scene.render;
+    settings.anti_aliasing.mode = AntiAliasMode::off;
+    const SceneArrays arrays = flatten(scene, settings, 2);
+    const KernelTable& kernels = find_kernels("auto", Precision::balanced);
+    FrameOptions options = sized(97, 40);
+    const Frame frame = render_frame(kernels, arrays, scene.camera, settings, options);
+    for (const int tile_size : {7, 8, 16})
+        for (const int stride : {2, 4}) {
+            CAPTURE(tile_size);
+            CAPTURE(stride);
+            options.tile_size = tile_size;
+            TileSample sample = each_alone(every_tile(options));
+            sample.stride = stride;
+            const RenderedSample rendered = render_sample(kernels, arrays, scene.camera, settings, options, sample);
+            std::uint64_t pixels = 0, wrong = 0;
+            for (const Film& film : rendered.films)
+                for (std::size_t c = 0; c < 3; ++c)
+                    for (int y = 0; y < film.height; ++y)
+                        for (int x = 0; x < film.width; ++x) {
+                            const bool wanted = x % stride == 0 && y % stride == 0;
+                            pixels += wanted && c == 0 ? 1 : 0;
+                            const auto of_frame = static_cast<std::size_t>((film.y0 + y) * 97 + film.x0 + x);
+                            const float value = film.rgb[c][static_cast<std::size_t>(y * film.width + x)];
+                            wrong += value == (wanted ? frame.film.rgb[c][of_frame] : 0.0f) ? 0 : 1;
+                        }
+            CHECK(wrong == 0);
+            CHECK(rendered.stats.kinds[0].rays == pixels);
+        }
+}

@@ -9,8 +9,9 @@
 namespace lanecast::trade {
 namespace {
 
-constexpr double looks_seconds = 1; ///< processor time per thread of the pictures that tell where to look
-constexpr std::size_t most_looked_at = 8192;
+constexpr double looks_share = 0.2;             ///< of the time that is granted, for the pictures that tell where to look
+constexpr int widest_stride = 4;                ///< of these pictures
+constexpr std::size_t most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
 
 /// Found on a few scattered pixels, and on more until the clock has something to measure.
 [[nodiscard]] double seconds_of_pixel(Bench bench, const Choice& choice) {
@@ -74,17 +75,18 @@ struct Look {
     return looks;
 }
 
-/// Root of the mean square of differences between neighbouring pixels.
-[[nodiscard]] double contrast(const Film& film) {
-    const auto width = static_cast<std::size_t>(film.width), pixels = film.rgb[0].size();
+/// Root of the mean square of differences between neighbours of the pixels that were rendered.
+[[nodiscard]] double contrast(const Film& film, int stride) {
     double squares = 0;
     for (const std::vector<float>& plane : film.rgb)
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const double right = (i + 1) % width == 0 ? 0 : double{plane[i + 1]} - plane[i];
-            const double below = i + width >= pixels ? 0 : double{plane[i + width]} - plane[i];
-            squares += right * right + below * below;
-        }
-    return std::sqrt(squares / (3 * static_cast<double>(pixels)));
+        for (int y = 0; y < film.height; y += stride)
+            for (int x = 0; x < film.width; x += stride) {
+                const auto at = [&](int u, int v) { return double{plane[static_cast<std::size_t>(v) * film.width + u]}; };
+                const double right = x + stride >= film.width ? 0 : at(x + stride, y) - at(x, y);
+                const double below = y + stride >= film.height ? 0 : at(x, y + stride) - at(x, y);
+                squares += right * right + below * below;
+            }
+    return std::sqrt(squares / (3.0 * film.width * film.height));
 }
 
 /// By tile: half of it even, half of it shared by all that the looks show, whatever the unit of each.
@@ -102,7 +104,7 @@ struct Look {
     };
     for (const Look& look : looks) {
         const std::vector<Film> truth = render(bench, look.truth.settings).films;
-        if (look.coarse.empty()) add_kind([&](std::size_t i) { return contrast(truth[i]); });
+        if (look.coarse.empty()) add_kind([&](std::size_t i) { return contrast(truth[i], bench.sample.stride); });
         for (const Choice& choice : look.coarse) {
             const std::vector<Film> coarse = render(bench, choice.settings).films;
             add_kind([&](std::size_t i) { return compare(coarse[i], truth[i]).rmse; });
@@ -126,9 +128,12 @@ TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pict
     for (const Look& look : looks) seconds += static_cast<double>(1 + look.coarse.size()) * seconds_of_pixel(bench, look.truth);
     Bench wide = bench;
     wide.options.tile_size = even.tile_size;
-    const std::size_t tiles = affordable_tiles(wide.options, looks_seconds, seconds, most_looked_at);
-    if (tiles < 2 * even.tiles.size()) return even;
-    wide.sample = each_alone(spread_tiles(wide.options, tiles));
+    wide.sample =
+        each_alone(spread_tiles(wide.options, most_looked_at / static_cast<std::size_t>(even.tile_size * even.tile_size)));
+    // every tile is looked at, however slow the machine, but perhaps not every pixel
+    const double pixels = limits.seconds * looks_share * bench.options.threads / seconds;
+    while (wide.sample.stride < widest_stride && wide.sample.pixels() > pixels * wide.sample.stride * wide.sample.stride)
+        wide.sample.stride *= 2;
     return draw_tiles(wide.sample, importance(wide, looks, badness), even.tiles.size());
 }
 
