@@ -50,27 +50,6 @@ namespace {
     return std::bit_floor(x) > std::bit_floor(y) ? a.x0 < b.x0 : a.y0 < b.y0;
 }
 
-/// Of being one of `count` that are drawn: in proportion, but at most 1, and what is left by those is shared by the others.
-[[nodiscard]] std::vector<double> chances(const std::vector<double>& importance, std::size_t count) {
-    std::vector<double> chance(importance.size(), 0);
-    std::size_t certain = 0;
-    for (bool more = true; more;) {
-        more = false;
-        double rest = 0;
-        for (std::size_t i = 0; i < chance.size(); ++i)
-            if (chance[i] < 1) rest += importance[i];
-        const double step = rest / static_cast<double>(count - certain);
-        for (std::size_t i = 0; i < chance.size(); ++i) {
-            if (chance[i] >= 1) continue;
-            chance[i] = std::min(importance[i] / step, 1.0);
-            if (chance[i] < 1) continue;
-            ++certain;
-            more = true;
-        }
-    }
-    return chance;
-}
-
 /// By drawn tile: the inverse of its chance, corrected so that the weighted pixels of the uncertain tiles are those there are,
 /// and their weighted chances, too: then errors that are even and errors that are in proportion to the importance are both told
 /// exactly (Deville and Saerndal, Calibration Estimators in Survey Sampling, 1992).
@@ -143,12 +122,32 @@ TileSample each_alone(TileSample sample) {
     return sample;
 }
 
-TileSample draw_tiles(const TileSample& sample, const std::vector<double>& importance, std::size_t count) {
+std::vector<double> chances_of(const std::vector<double>& importance, std::size_t count) {
+    std::vector<double> chance(importance.size(), 0);
+    count = std::min(count, chance.size());
+    std::size_t certain = 0;
+    for (bool more = true; more;) { // what is left by the certain ones is shared by the others
+        more = false;
+        double rest = 0;
+        for (std::size_t i = 0; i < chance.size(); ++i)
+            if (chance[i] < 1) rest += importance[i];
+        const double step = rest / static_cast<double>(count - certain);
+        for (std::size_t i = 0; i < chance.size(); ++i) {
+            if (chance[i] >= 1) continue;
+            chance[i] = std::min(importance[i] / step, 1.0);
+            if (chance[i] < 1) continue;
+            ++certain;
+            more = true;
+        }
+    }
+    return chance;
+}
+
+TileSample draw_tiles(const TileSample& sample, const std::vector<double>& chance) {
     std::vector<std::size_t> order(sample.tiles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return morton_less(sample.tiles[a], sample.tiles[b]); });
-    const std::vector<double> chance = chances(importance, std::min(count, sample.tiles.size()));
     std::vector<std::size_t> drawn;
     double sum = 0.5;
     for (const std::size_t i : order) {
@@ -186,6 +185,7 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
                              const RenderSettings& settings, const FrameOptions& options, const TileSample& sample) {
     RenderedSample rendered;
     for (const Tile& window : sample.windows) rendered.films.push_back(make_film(sample.width, sample.height, window));
+    rendered.tile_rays.resize(sample.tiles.size());
     FrameOptions same = options;
     same.width = sample.width;
     same.height = sample.height;
@@ -209,9 +209,10 @@ RenderedSample render_sample(const KernelTable& kernels, const SceneArrays& scen
             const double begin = processor_time();
             const TileStats tile = kernels.render_tile(job, sample.tiles[i], scratch.get());
             const double spent = processor_time() - begin, weight = sample.weights[sample.window_of[i]];
+            rendered.tile_rays[i] = static_cast<double>(ray_count(tile));
             seconds += spent;
             frame_seconds += weight * spent;
-            frame_rays += weight * static_cast<double>(ray_count(tile));
+            frame_rays += weight * rendered.tile_rays[i];
             add(stats, tile);
         }
         const std::lock_guard lock(mutex);

@@ -36,11 +36,14 @@ struct TileSample {
 /// The same tiles, each with a film of its own.
 [[nodiscard]] TileSample each_alone(TileSample sample);
 
-/// `count` tiles of this sample, each with a film of its own, drawn in proportion to `importance`, which is above 0, by tile:
-/// those that make up more than a share of one in `count` for certain, of the others one after each equal step of the sum
-/// (systematic sampling, Madow 1949), along a curve that keeps neighbours together. They are rendered whole;
-/// stride and weights of the sample do not count.
-[[nodiscard]] TileSample draw_tiles(const TileSample& sample, const std::vector<double>& importance, std::size_t count);
+/// Of each tile to be one of `count` that are drawn, in proportion to `importance`, which is above 0: those that make up more
+/// than a share of one in `count` are drawn for certain.
+[[nodiscard]] std::vector<double> chances_of(const std::vector<double>& importance, std::size_t count);
+
+/// Tiles of this sample, each with a film of its own, drawn with these chances: one after each equal step of their sum
+/// (systematic sampling, Madow 1949), along a curve that keeps neighbours together. They are rendered whole; stride and weights
+/// of the sample do not count.
+[[nodiscard]] TileSample draw_tiles(const TileSample& sample, const std::vector<double>& chance);
 
 /// The same windows in tiles of at most this size.
 [[nodiscard]] TileSample in_tiles_of(const TileSample& sample, int tile_size);
@@ -51,6 +54,7 @@ struct RenderedSample {
     double seconds = 0;       ///< processor time of the threads inside tiles
     double frame_seconds = 0; ///< of the frame, as far as the sample tells
     double frame_rays = 0;    ///< the same
+    std::vector<double> tile_rays;
 };
 
 /// As `render_frame` would. options.crop and options.stop do not count. Throws std::bad_alloc.

@@ -131,6 +131,23 @@ TEST_CASE("the bound holds on the frame, against the reference that the program 
     }
 }
 
+TEST_CASE("where only the reference's samples keep a bound, its other knobs are still turned down") {
+    const TemporaryDirectory directory;
+    const auto rays_of = [](const Outcome& outcome) { // "wrote a.exr (16x12, 1.23 M rays in 4 ms)"
+        const std::vector<std::string> words = words_of(between(outcome.err, "wrote ", "\n"));
+        const double rays = std::stod(words[2]);
+        return words[3] == "M" ? 1e6 * rays : words[3] == "k" ? 1e3 * rays : rays;
+    };
+    const Outcome picked = render(directory.path, small, "picked.exr", {"--max-error", "0.03", "--error-metric", "max"});
+    CAPTURE(picked.err);
+    REQUIRE(picked.code == 0);
+    const Outcome reference = render(directory.path, small, "truth.exr", words_of(between(picked.err, "reference: ", ";")));
+    CAPTURE(reference.err);
+    REQUIRE(reference.code == 0);
+    CHECK(rays_of(picked) < rays_of(reference) / 4);
+    CHECK(run({"diff", "picked.exr", "truth.exr", "--max-error", "0.03"}, {.directory = directory.path}).code == 0);
+}
+
 TEST_CASE("the bound holds where all there is lies between the tiles that are tried") {
     const TemporaryDirectory directory;
     const auto render = [&](const char* name, std::vector<std::string> options) {

@@ -147,6 +147,27 @@ TEST_CASE("downhill, one knob at a time, everything is reached and nothing comes
     }
 }
 
+TEST_CASE("from the truth every knob goes down: no choice is deeper or cuts off less, whatever the scene's own values") {
+    for (const double cutoff : {0.0, 0.001, 1.0}) {
+        const Stage stage;
+        Choice base = stage.base();
+        base.settings.cutoff = cutoff;
+        const std::vector<Ladder> ladders = make_ladders(stage.arrays, base, {}, "auto", 16);
+        const Choice truth = true_choice(base, ladders);
+        for (const Ladder& ladder : ladders) {
+            CAPTURE(name_of(ladder.knob));
+            const std::vector<Choice> lower = cheaper(truth, ladder);
+            CHECK(!lower.empty());
+            for (const Choice& choice : lower) {
+                CHECK(label_of(ladder.knob, choice) != label_of(ladder.knob, truth));
+                CHECK(choice.settings.depth <= truth.settings.depth);
+                CHECK(choice.settings.cutoff >= truth.settings.cutoff);
+                CHECK(choice.settings.soft_shadows <= truth.settings.soft_shadows);
+            }
+        }
+    }
+}
+
 TEST_CASE("the front: nothing beats its members, and something beats all others") {
     std::mt19937 random(1);
     for (int trial = 0; trial < 2000; ++trial) {
@@ -265,6 +286,22 @@ TEST_CASE("a sample tells what depth changes, though it lies in few tiles and th
             CHECK(of_sample > of_frame / 2);
             CHECK(of_sample < of_frame * 2);
         }
+    }
+}
+
+TEST_CASE("trials of the reference are its own kernels', whose time a frame takes; the picture to compare with may come sooner") {
+    Stage stage;
+    RenderSettings settings = stage.base().settings;
+    settings.precision = Precision::reference;
+    const auto own = render_sample(find_kernels("auto", Precision::reference), stage.arrays, stage.scene.camera, settings,
+                                   stage.bench.options, stage.bench.sample);
+    const auto lanes = [](const RenderedSample& rendered) { return rendered.stats.kinds[0].first_lanes; };
+    for (const char* isa : {"auto", "sse4.2"}) {
+        stage.bench.isa = isa;
+        const RenderedSample trial = render(stage.bench, settings), sooner = render_sooner(stage.bench, settings);
+        CHECK(lanes(trial) == lanes(own));
+        CHECK(test::film_difference(own.films[0], trial.films[0]) == "");
+        CHECK(test::film_difference(own.films[0], sooner.films[0]) == "");
     }
 }
 

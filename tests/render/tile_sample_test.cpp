@@ -81,7 +81,7 @@ TEST_CASE("drawn tiles: each once, the important ones for certain, and the weigh
         const std::size_t large = random() % tiles;
         const bool certain = draw % 2 == 0;
         if (certain) importance[large] = even;
-        const TileSample drawn = draw_tiles(all, importance, count);
+        const TileSample drawn = draw_tiles(all, chances_of(importance, count));
         CHECK(drawn.tiles.size() + 1 >= count);
         CHECK(drawn.tiles.size() <= count + 1);
         REQUIRE(drawn.windows.size() == drawn.tiles.size());
@@ -129,7 +129,7 @@ TEST_CASE("drawn tiles tell a mean that the importance knows better than evenly 
             }
             return std::fabs(sum / weights / mean - 1);
         };
-        drawn_error += relative_error(draw_tiles(all, importance, 64)) / 200;
+        drawn_error += relative_error(draw_tiles(all, chances_of(importance, 64))) / 200;
         spread_error += relative_error(spread_tiles(options, 64)) / 200;
     }
     CAPTURE(drawn_error);

@@ -17,6 +17,7 @@ constexpr std::size_t least_tiles = 64, most_tiles = 160;
 /// Per side of a pixel of the reference; the finer ones only where the coarser are too uncertain. 11 has no sample but the centre
 /// in common with any of the choices.
 constexpr int truth_samples[] = {11, 16};
+constexpr double hopeless = 2; ///< where the coarser is less certain than this multiple of a bound, so is the finer
 /// What the largest error of a frame may add to that of a small part of it, as a multiple. Met, where tiles are drawn where
 /// errors are: 0.7, and 1.1 of mirrors in mirrors, whose reference is uncertain, too (docs/accuracy.md).
 constexpr double unseen_maximum = 1;
@@ -83,23 +84,37 @@ struct Search {
     return std::ranges::find(ladders, Knob::file, &Ladder::knob) != ladders.end();
 }
 
+/// The truth as far as knobs may be turned; its numbers by what has them sooner than the reference.
+[[nodiscard]] Choice attainable_truth(const Search& search, const Choice& base) {
+    Choice choice = search.truth;
+    if (!turns_file(search.ladders)) choice.float_file = base.float_file;
+    choice.settings.precision = base.settings.precision;
+    for (const Ladder& ladder : search.ladders) {
+        if (ladder.knob != Knob::precision) continue;
+        for (const KnobValue& value : ladder.values) value.set(choice); // the last is the most precise
+    }
+    return choice;
+}
+
 [[nodiscard]] Step within_error(Search& search, const Choice& base, const Budget& budget) {
     const double limit = *budget.max_error;
     const Judge& judge = search.judge;
     const auto accept = [&](const Step& step) { return judge.at_most(step.error) <= limit; };
+    const auto require = [&](bool kept) {
+        if (!kept)
+            throw Error(ExitCode::usage, "--max-error " + number_text(limit) +
+                                             ": no settings are known to keep it; the reference itself is certain to " +
+                                             short_error(judge.uncertain()));
+    };
+    require(judge.uncertain() <= limit);
     Choice from = dearest_choice(base, search.ladders);
     if (turns_file(search.ladders)) {
         from.float_file = false;
         // halves where their rounding is a small part of the error
         if (judge.at_most(search.laboratory.tried(from).error) > 0.7 * limit) from.float_file = true;
     }
-    if (!accept(search.laboratory.tried(from))) {
-        const Step truth{search.truth, {}, search.laboratory.reference().frame_seconds};
-        if (accept(truth)) return truth;
-        throw Error(ExitCode::usage, "--max-error " + number_text(limit) +
-                                         ": no settings are known to keep it; the reference itself is " + "certain to " +
-                                         short_error(judge.uncertain()));
-    }
+    if (!accept(search.laboratory.tried(from))) from = attainable_truth(search, base);
+    require(accept(search.laboratory.tried(from)));
     const auto badness = [&](const PictureError& e) { return judge.badness(e); };
     Step best = walk(search.laboratory, without_file(search.ladders), from, badness, accept).back();
     search.laboratory.for_each([&](const Step& step) { // also what the walk passed by

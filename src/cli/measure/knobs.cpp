@@ -49,7 +49,7 @@ KnobValue precision(Precision value) {
     return {word_of(key_of(format::render, "precision"), value), [value](Choice& c) { c.settings.precision = value; }};
 }
 
-/// Those of the format that this machine can run, the reference apart.
+/// Those of the format that this machine can run, the most precise last, the reference apart.
 std::vector<KnobValue> precisions(std::string_view isa) {
     std::vector<KnobValue> values;
     for (std::size_t i = 0; i < key_of(format::render, "precision").choices.size(); ++i) {
@@ -118,6 +118,24 @@ std::vector<Choice> cheaper_anti_aliasing(const Choice& choice, const Ladder& la
         if (mode == AntiAliasMode::off || (mode == AntiAliasMode::cross && aa.mode != mode)) out.push_back(with(choice, value));
     }
     return out;
+}
+
+/// Goes up as the knob is turned up; for knobs whose value is a number, and the file.
+double dearness(Knob knob, const Choice& choice) {
+    switch (knob) {
+    case Knob::soft_shadows:
+        return choice.settings.soft_shadows;
+    case Knob::depth:
+        return choice.settings.depth;
+    case Knob::cutoff:
+        return -choice.settings.cutoff;
+    case Knob::file:
+        return choice.float_file ? 1 : 0;
+    case Knob::precision:
+    case Knob::anti_aliasing:
+        break;
+    }
+    return 0;
 }
 
 } // namespace
@@ -284,10 +302,10 @@ std::vector<Choice> cheaper(const Choice& choice, const Ladder& ladder) {
             if (value.label != own) others.push_back(with(choice, value));
         return others;
     }
-    std::vector<Choice> out;
-    const auto at = std::ranges::find(ladder.values, own, &KnobValue::label);
-    if (at == ladder.values.end()) return out;
-    for (auto lower = at; lower != ladder.values.begin() && std::ssize(out) < steps_tried;) out.push_back(with(choice, *--lower));
+    std::vector<Choice> out; // of the values, which go up; that of the truth need not be among them
+    for (auto value = ladder.values.rbegin(); value != ladder.values.rend() && std::ssize(out) < steps_tried; ++value)
+        if (const Choice next = with(choice, *value); dearness(ladder.knob, next) < dearness(ladder.knob, choice))
+            out.push_back(next);
     return out;
 }
 

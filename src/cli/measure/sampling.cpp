@@ -20,7 +20,7 @@ constexpr std::size_t most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
     bench.options.tile_size = 2;
     for (std::size_t places = 64;; places *= 2) {
         bench.sample = spread_tiles(bench.options, places);
-        const double seconds = render(bench, choice.settings).seconds;
+        const double seconds = render_sooner(bench, choice.settings).seconds;
         if (seconds > enough_seconds || places >= most_places || bench.sample.windows.size() == 1)
             return seconds / bench.sample.pixels();
     }
@@ -89,10 +89,14 @@ struct Look {
     return std::sqrt(squares / (3.0 * film.width * film.height));
 }
 
-/// By tile: half of it even, half of it shared by all that the looks show, whatever the unit of each.
-[[nodiscard]] std::vector<double> importance(const Bench& bench, const std::vector<Look>& looks,
-                                             const std::function<double(double r)>& badness) {
+struct Seen {
+    std::vector<double> importance; ///< by tile: half of it even, half of it shared by all that the looks show, whatever the unit
+    std::vector<double> rays;       ///< by tile, of the first look
+};
+
+[[nodiscard]] Seen seen_by(const Bench& bench, const std::vector<Look>& looks, const std::function<double(double r)>& badness) {
     const std::size_t tiles = bench.sample.tiles.size();
+    Seen seen;
     std::vector<std::vector<double>> kinds; // each of sum 1
     const auto add_kind = [&](const auto& rmse_of) {
         std::vector<double> kind(tiles);
@@ -103,17 +107,48 @@ struct Look {
         kinds.push_back(std::move(kind));
     };
     for (const Look& look : looks) {
-        const std::vector<Film> truth = render(bench, look.truth.settings).films;
+        const RenderedSample rendered = render(bench, look.truth.settings);
+        const std::vector<Film>& truth = rendered.films;
+        if (seen.rays.empty()) seen.rays = rendered.tile_rays;
         if (look.coarse.empty()) add_kind([&](std::size_t i) { return contrast(truth[i], bench.sample.stride); });
         for (const Choice& choice : look.coarse) {
             const std::vector<Film> coarse = render(bench, choice.settings).films;
             add_kind([&](std::size_t i) { return compare(coarse[i], truth[i]).rmse; });
         }
     }
-    std::vector<double> shares(tiles, 1 / static_cast<double>(tiles));
+    seen.importance.assign(tiles, 1 / static_cast<double>(tiles));
     for (std::size_t i = 0; i < tiles; ++i)
-        for (const std::vector<double>& kind : kinds) shares[i] += kind[i] / static_cast<double>(kinds.size());
-    return shares;
+        for (const std::vector<double>& kind : kinds) seen.importance[i] += kind[i] / static_cast<double>(kinds.size());
+    return seen;
+}
+
+/// Rays of a sample that is drawn with these chances.
+[[nodiscard]] double rays_of(const Seen& seen, const std::vector<double>& chances) {
+    return std::inner_product(chances.begin(), chances.end(), seen.rays.begin(), 0.0);
+}
+
+/// As many as were to be spread evenly. But where errors are, rays may be thousands a pixel: if that is dear, of smaller tiles
+/// no more than can be had.
+[[nodiscard]] TileSample affordable_draw(const TileSample& all, const Seen& seen, std::size_t even_tiles,
+                                         const SampleLimits& limits) {
+    constexpr double dear = 2;
+    constexpr int small_tile = 4;
+    const double even_rays =
+        std::reduce(seen.rays.begin(), seen.rays.end()) * static_cast<double>(even_tiles) / static_cast<double>(seen.rays.size());
+    std::vector<double> chances = chances_of(seen.importance, even_tiles);
+    if (rays_of(seen, chances) <= dear * even_rays) return draw_tiles(all, chances);
+    TileSample smaller = in_tiles_of(all, small_tile);
+    Seen parts;
+    for (std::size_t i = 0; i < smaller.tiles.size(); ++i) {
+        const std::size_t whole = smaller.window_of[i];
+        const double share = pixels_of(smaller.tiles[i]) / pixels_of(all.tiles[whole]);
+        parts.importance.push_back(share * seen.importance[whole]);
+        parts.rays.push_back(share * seen.rays[whole]);
+    }
+    for (std::size_t count = limits.most_tiles;; count -= 1 + count / 16) {
+        chances = chances_of(parts.importance, count);
+        if (rays_of(parts, chances) <= dear * even_rays || count <= limits.least_tiles / 4) return draw_tiles(smaller, chances);
+    }
 }
 
 } // namespace
@@ -134,7 +169,7 @@ TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pict
     const double pixels = limits.seconds * looks_share * bench.options.threads / seconds;
     while (wide.sample.stride < widest_stride && wide.sample.pixels() > pixels * wide.sample.stride * wide.sample.stride)
         wide.sample.stride *= 2;
-    return draw_tiles(wide.sample, importance(wide, looks, badness), even.tiles.size());
+    return affordable_draw(wide.sample, seen_by(wide, looks, badness), even.tiles.size(), limits);
 }
 
 } // namespace lanecast::trade

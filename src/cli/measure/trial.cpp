@@ -60,6 +60,12 @@ namespace {
     return all;
 }
 
+[[nodiscard]] RenderedSample render_by(const KernelTable& kernels, const Bench& bench, const RenderSettings& settings) {
+    RenderedSample rendered = render_sample(kernels, *bench.scene, *bench.camera, settings, bench.options, bench.sample);
+    for (Film& film : rendered.films) scrub(film);
+    return rendered;
+}
+
 } // namespace
 
 PictureError error_of(const std::vector<Film>& films, const ReferencePicture& reference, const TileSample& sample) {
@@ -90,11 +96,12 @@ PictureError error_of(const std::vector<Film>& films, const ReferencePicture& re
 }
 
 RenderedSample render(const Bench& bench, const RenderSettings& settings) {
-    const KernelTable& kernels =
-        settings.precision == Precision::reference ? truth_kernels() : find_kernels(bench.isa, settings.precision);
-    RenderedSample rendered = render_sample(kernels, *bench.scene, *bench.camera, settings, bench.options, bench.sample);
-    for (Film& film : rendered.films) scrub(film);
-    return rendered;
+    const std::string isa = settings.precision == Precision::reference ? "auto" : bench.isa;
+    return render_by(find_kernels(isa, settings.precision), bench, settings);
+}
+
+RenderedSample render_sooner(const Bench& bench, const RenderSettings& settings) {
+    return settings.precision == Precision::reference ? render_by(truth_kernels(), bench, settings) : render(bench, settings);
 }
 
 void round_as_file(std::vector<Film>& films, bool float_file) {
@@ -108,7 +115,7 @@ ReferencePicture render_reference(const Bench& bench, const Choice& choice) {
     constexpr int small_tile = 4; // a pixel of glass may take seconds: no thread shall be left with all of them
     Bench small = bench;
     small.sample = in_tiles_of(bench.sample, small_tile);
-    RenderedSample rendered = render(small, choice.settings);
+    RenderedSample rendered = render_sooner(small, choice.settings);
     ReferencePicture reference;
     reference.frame_seconds = rendered.frame_seconds;
     reference.films = std::move(rendered.films);

@@ -40,6 +40,9 @@ struct Bench {
 
 [[nodiscard]] RenderedSample render(const Bench& bench, const RenderSettings& settings);
 
+/// The same pixels, but the reference's by `truth_kernels`: its times are not those of a frame.
+[[nodiscard]] RenderedSample render_sooner(const Bench& bench, const RenderSettings& settings);
+
 /// The films as the file will give them back.
 void round_as_file(std::vector<Film>& films, bool float_file);
 
