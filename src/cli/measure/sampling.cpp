@@ -10,6 +10,7 @@ namespace lanecast::trade {
 namespace {
 
 constexpr double looks_share = 0.2;             ///< of the time that is granted, for the pictures that tell where to look
+constexpr double dearer = 2;                    ///< than granted: what a sample may be that lies where errors are
 constexpr int widest_stride = 4;                ///< of these pictures
 constexpr std::size_t most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
 
@@ -26,21 +27,11 @@ constexpr std::size_t most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
     }
 }
 
-/// `seconds_of_pixels`: of one pixel of all pictures.
-[[nodiscard]] std::size_t affordable_tiles(const FrameOptions& options, double seconds, double seconds_of_pixels,
-                                           std::size_t most_tiles) {
-    const double tiles = seconds * options.threads / (seconds_of_pixels * options.tile_size * options.tile_size);
-    return static_cast<std::size_t>(std::min(tiles, static_cast<double>(most_tiles)));
-}
-
-/// Spread over the frame.
-[[nodiscard]] TileSample even_sample(const Bench& bench, const std::vector<Choice>& pictures, const SampleLimits& limits) {
-    double seconds = 0;
-    for (const Choice& picture : pictures) seconds += seconds_of_pixel(bench, picture);
-    FrameOptions options = bench.options;
+/// Spread over the frame. `pixels`: as many as can be afforded.
+[[nodiscard]] TileSample even_sample(FrameOptions options, double pixels, const SampleLimits& limits) {
     const auto affordable = [&](int tile_size) {
         options.tile_size = tile_size;
-        return affordable_tiles(options, limits.seconds, seconds, limits.most_tiles);
+        return static_cast<std::size_t>(std::min(pixels / (tile_size * tile_size), static_cast<double>(limits.most_tiles)));
     };
     if (const std::size_t tiles = affordable(16); tiles >= limits.least_tiles) return spread_tiles(options, tiles);
     return spread_tiles(options, std::max(affordable(8), limits.least_tiles / 4));
@@ -127,16 +118,13 @@ struct Seen {
     return std::inner_product(chances.begin(), chances.end(), seen.rays.begin(), 0.0);
 }
 
-/// As many as were to be spread evenly. But where errors are, rays may be thousands a pixel: if that is dear, of smaller tiles
-/// no more than can be had.
-[[nodiscard]] TileSample affordable_draw(const TileSample& all, const Seen& seen, std::size_t even_tiles,
+/// As many as were to be spread evenly. But where errors are, a pixel may take thousands of rays: if that is dear, of smaller
+/// tiles no more than can be had. `most_rays`: as many as the pixels of the frame that can be afforded.
+[[nodiscard]] TileSample affordable_draw(const TileSample& all, const Seen& seen, std::size_t even_tiles, double most_rays,
                                          const SampleLimits& limits) {
-    constexpr double dear = 2;
     constexpr int small_tile = 4;
-    const double even_rays =
-        std::reduce(seen.rays.begin(), seen.rays.end()) * static_cast<double>(even_tiles) / static_cast<double>(seen.rays.size());
     std::vector<double> chances = chances_of(seen.importance, even_tiles);
-    if (rays_of(seen, chances) <= dear * even_rays) return draw_tiles(all, chances);
+    if (rays_of(seen, chances) <= most_rays) return draw_tiles(all, chances);
     TileSample smaller = in_tiles_of(all, small_tile);
     Seen parts;
     for (std::size_t i = 0; i < smaller.tiles.size(); ++i) {
@@ -147,7 +135,7 @@ struct Seen {
     }
     for (std::size_t count = limits.most_tiles;; count -= 1 + count / 16) {
         chances = chances_of(parts.importance, count);
-        if (rays_of(parts, chances) <= dear * even_rays || count <= limits.least_tiles / 4) return draw_tiles(smaller, chances);
+        if (rays_of(parts, chances) <= most_rays || count <= limits.least_tiles / 4) return draw_tiles(smaller, chances);
     }
 }
 
@@ -156,20 +144,28 @@ struct Seen {
 TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pictures, const Choice& truth,
                              const std::vector<Ladder>& ladders, const SampleLimits& limits,
                              const std::function<double(double rmse)>& badness) {
-    const TileSample even = even_sample(bench, pictures, limits);
+    const double thread_seconds = limits.seconds * bench.options.threads;
+    double seconds = 0; // of one pixel of all pictures
+    for (const Choice& picture : pictures) seconds += seconds_of_pixel(bench, picture);
+    const double affordable_pixels = thread_seconds / seconds;
+    const TileSample even = even_sample(bench.options, affordable_pixels, limits);
     if (even.windows.size() == 1) return even;
     const std::vector<Look> looks = looks_of(truth, ladders);
-    double seconds = 0;
+    seconds = 0;
     for (const Look& look : looks) seconds += static_cast<double>(1 + look.coarse.size()) * seconds_of_pixel(bench, look.truth);
     Bench wide = bench;
     wide.options.tile_size = even.tile_size;
     wide.sample =
         each_alone(spread_tiles(wide.options, most_looked_at / static_cast<std::size_t>(even.tile_size * even.tile_size)));
     // every tile is looked at, however slow the machine, but perhaps not every pixel
-    const double pixels = limits.seconds * looks_share * bench.options.threads / seconds;
+    const double pixels = looks_share * thread_seconds / seconds;
     while (wide.sample.stride < widest_stride && wide.sample.pixels() > pixels * wide.sample.stride * wide.sample.stride)
         wide.sample.stride *= 2;
-    return affordable_draw(wide.sample, seen_by(wide, looks, badness), even.tiles.size(), limits);
+    const Seen seen = seen_by(wide, looks, badness);
+    const double rays =
+        std::reduce(seen.rays.begin(), seen.rays.end()) / wide.sample.pixels();
+    return affordable_draw(wide.sample, seen, even.tiles.size(), dearer * rays * std::max(affordable_pixels, even.pixels()),
+                           limits);
 }
 
 } // namespace lanecast::trade
