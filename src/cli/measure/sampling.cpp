@@ -162,8 +162,7 @@ TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pict
     while (wide.sample.stride < widest_stride && wide.sample.pixels() > pixels * wide.sample.stride * wide.sample.stride)
         wide.sample.stride *= 2;
     const Seen seen = seen_by(wide, looks, badness);
-    const double rays =
-        std::reduce(seen.rays.begin(), seen.rays.end()) / wide.sample.pixels();
+    const double rays = std::reduce(seen.rays.begin(), seen.rays.end()) / wide.sample.pixels();
     return affordable_draw(wide.sample, seen, even.tiles.size(), dearer * rays * std::max(affordable_pixels, even.pixels()),
                            limits);
 }
