@@ -114,7 +114,7 @@ TEST_CASE("what cannot be measured is refused in one line") {
 
 TEST_CASE("--quick samples the frame by what its reference costs, and says what it sampled") {
     const Outcome outcome = run({"measure", small, "--quick", "--size", "4096x4096", "--threads", "1", "--aa", "grid",
-                                 "--aa-samples", "8", "--precision", "balanced", "--repetitions", "1", "--rays", "2000"},
+                                 "--aa-samples", "4", "--precision", "balanced", "--repetitions", "1", "--rays", "2000"},
                                 {.seconds = 600});
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);

@@ -242,6 +242,37 @@ TEST_CASE("errors: none of the same picture, known ones found, over all windows"
     CHECK(films[0].rgb[0][0] == 0.333251953125f);
 }
 
+TEST_CASE("every tile of a frame is looked at, and of frames too large for that as many as can be afforded") {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> log_pixels(0, 28);
+    std::uniform_int_distribution<int> tiles(1, 600), stretch(0, 2);
+    for (int draw = 0; draw < 300; ++draw) {
+        FrameOptions options;
+        options.tile_size = 4 << stretch(random);
+        options.width = options.tile_size * tiles(random);
+        options.height = options.tile_size * tiles(random);
+        const std::size_t count = every_tile(options).tiles.size();
+        const double pixels = std::exp2(log_pixels(random));
+        const TileSample sample = sample_to_look_at(options, pixels);
+        const double looked_at = sample.pixels() / (sample.stride * sample.stride);
+        CAPTURE(options.width);
+        CAPTURE(options.height);
+        CAPTURE(options.tile_size);
+        CAPTURE(pixels);
+        CHECK(sample.tiles.size() >= std::min(count, tiles_surely_looked_at));
+        CHECK(sample.windows.size() == sample.tiles.size());
+        CHECK(sample.pixels() <= 1 << 24);
+        CHECK((looked_at <= pixels || (sample.stride == 4 && sample.tiles.size() <= tiles_surely_looked_at)));
+        // nothing that can be afforded is left out
+        if (sample.tiles.size() < count && sample.pixels() < (1 << 24) - 256) {
+            CHECK(sample.stride == 4);
+            CHECK((looked_at > pixels - 16 || sample.tiles.size() == tiles_surely_looked_at));
+        }
+        if (sample.stride > 1)
+            CHECK(4 * std::min<double>(1 << 24, every_tile(options).pixels()) > pixels * sample.stride * sample.stride);
+    }
+}
+
 TEST_CASE("a sample tells what depth changes, though it lies in few tiles and the machine may be as slow as it likes") {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> place(-8, 8);

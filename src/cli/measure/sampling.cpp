@@ -9,10 +9,10 @@
 namespace lanecast::trade {
 namespace {
 
-constexpr double looks_share = 0.2;             ///< of the time that is granted, for the pictures that tell where to look
-constexpr double dearer = 2;                    ///< than granted: what a sample may be that lies where errors are
-constexpr int widest_stride = 4;                ///< of these pictures
-constexpr std::size_t most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
+constexpr double looks_share = 0.2;        ///< of the time that is granted, for the pictures that tell where to look
+constexpr double dearer = 2;               ///< than granted: what a sample may be that lies where errors are
+constexpr int widest_stride = 4;           ///< of these pictures
+constexpr double most_looked_at = 1 << 24; ///< pixels: 200 MB a picture
 
 /// Found on a few scattered pixels, and on more until the clock has something to measure.
 [[nodiscard]] double seconds_of_pixel(Bench bench, const Choice& choice) {
@@ -141,6 +141,19 @@ struct Seen {
 
 } // namespace
 
+TileSample sample_to_look_at(const FrameOptions& options, double pixels) {
+    const TileSample all = every_tile(options);
+    const double tile_pixels = static_cast<double>(options.tile_size) * options.tile_size;
+    const double most = std::min(most_looked_at / tile_pixels, static_cast<double>(all.tiles.size()));
+    const auto tiles_at = [&](int stride) { return pixels * stride * stride / tile_pixels; };
+    int stride = 1;
+    while (stride < widest_stride && tiles_at(stride) < most) stride *= 2;
+    const double least = std::min(most, static_cast<double>(tiles_surely_looked_at));
+    TileSample sample = each_alone(spread_tiles(options, static_cast<std::size_t>(std::clamp(tiles_at(stride), least, most))));
+    sample.stride = stride;
+    return sample;
+}
+
 TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pictures, const Choice& truth,
                              const std::vector<Ladder>& ladders, const SampleLimits& limits,
                              const std::function<double(double rmse)>& badness) {
@@ -155,12 +168,7 @@ TileSample affordable_sample(const Bench& bench, const std::vector<Choice>& pict
     for (const Look& look : looks) seconds += static_cast<double>(1 + look.coarse.size()) * seconds_of_pixel(bench, look.truth);
     Bench wide = bench;
     wide.options.tile_size = even.tile_size;
-    wide.sample =
-        each_alone(spread_tiles(wide.options, most_looked_at / static_cast<std::size_t>(even.tile_size * even.tile_size)));
-    // every tile is looked at, however slow the machine, but perhaps not every pixel
-    const double pixels = looks_share * thread_seconds / seconds;
-    while (wide.sample.stride < widest_stride && wide.sample.pixels() > pixels * wide.sample.stride * wide.sample.stride)
-        wide.sample.stride *= 2;
+    wide.sample = sample_to_look_at(wide.options, looks_share * thread_seconds / seconds);
     const Seen seen = seen_by(wide, looks, badness);
     const double rays = std::reduce(seen.rays.begin(), seen.rays.end()) / wide.sample.pixels();
     return affordable_draw(wide.sample, seen, even.tiles.size(), dearer * rays * std::max(affordable_pixels, even.pixels()),
