@@ -26,7 +26,7 @@ LIBRARIES = [
     (re.compile(r"^glm/"), {"scene", "render", "lanecast", "cli"}),
     (re.compile(r"^nlohmann/"), {"scene"}),
     (re.compile(r"^(OpenEXR|Imath)/|^(Imf|Imath|Iex)[A-Za-z0-9]*\.h$|^half\.h$"), {"render"}),
-    (re.compile(r"^png\.h$|^zlib\.h$"), {"render"}),
+    (re.compile(r"^png\.h$|^libdeflate\.h$"), {"render"}),
     (re.compile(r"^CLI/"), {"cli", "main"}),
     (re.compile(r"^embree[34]/"), {"cli"}),
 ]

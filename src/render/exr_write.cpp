@@ -1,28 +1,23 @@
 #include "render/exr_io.hpp"
 
-#include "render/half_float.hpp"
+#include "render/exr_lines.hpp"
 #include "render/output_file.hpp"
-#include "render/parallel_rows.hpp"
-#include "render/scrub.hpp"
 #include "scene/text_tools.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
 #include <new>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
-#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfVersion.h>
 
 namespace lanecast {
 namespace {
@@ -67,60 +62,27 @@ void insert_attribute(Imf::Header& header, const std::string& name, double value
     return header;
 }
 
-/// OpenEXR's pool belongs to the process and starts empty; it is grown, never shrunk, so that films can be written concurrently.
-void ensure_pool(int threads) {
-    static std::mutex growing;
-    const std::lock_guard lock(growing);
-    if (threads > 1 && Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
-}
-
-/// `pixels` holds three planes, each the film's size, of the header's type.
-void write_planes(OutputFile& file, const std::string& name, const Imf::Header& header, const char* const planes[3],
-                  int threads) {
+/// A file of one part (OpenEXR File Layout): OpenEXR writes the header; the rest is where each line begins, and the lines.
+/// Its own classes compress by zlib up to 3.1, which takes three to five times as long (docs/output.md).
+void write_file_of(OutputFile& file, const std::string& name, const Film& film, const ExrOptions& options) {
+    const Imf::Header header = make_header(film, options);
+    header.sanityCheck();
+    const std::vector<ExrLines> bands = compress_lines(film, options.float_pixels, options.threads);
     ExrStream stream(file, name.c_str());
-    const Imath::Box2i& window = header.dataWindow();
-    const Imf::PixelType type = header.channels().begin().channel().type;
-    const std::size_t stride = type == Imf::HALF ? sizeof(std::uint16_t) : sizeof(float);
-    const std::size_t row = stride * static_cast<std::size_t>(window.max.x - window.min.x + 1);
-    Imf::FrameBuffer pixels;
-    for (int c = 0; c < 3; ++c) pixels.insert(channel_names[c], Imf::Slice::Make(type, planes[c], window, stride, row));
-    ensure_pool(threads);
-    Imf::OutputFile exr(stream, header, threads > 1 ? threads : 0);
-    exr.setFrameBuffer(pixels);
-    exr.writePixels(window.max.y - window.min.y + 1); // one call: lines are compressed in parallel within a call only
-} // the file's destructor writes the line table and swallows errors; OutputFile remembers them
-
-void write_half(OutputFile& file, const std::string& name, const Film& film, const ExrOptions& options) {
-    std::vector<std::uint16_t> halves[3];
-    const char* planes[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-        halves[c].resize(film.rgb[c].size());
-        planes[c] = reinterpret_cast<const char*>(halves[c].data());
-    }
-    for_each_row_band(film.height, options.threads, [&](int first_row, int last_row) {
-        const std::size_t width = static_cast<std::size_t>(film.width);
-        const std::size_t first = width * static_cast<std::size_t>(first_row), last = width * static_cast<std::size_t>(last_row);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float* from = film.rgb[c].data();
-            std::uint16_t* to = halves[c].data();
-            for (std::size_t i = first; i < last; ++i) {
-                const float number = from[i] == from[i] ? from[i] : 0.0f;
-                to[i] = half_bits(std::clamp(number, -largest_half, largest_half));
-            }
+    const auto put = [&](const void* data, std::size_t size) {
+        if (!file.write(data, size)) throw file.error();
+    };
+    const bool long_names = std::ranges::any_of(options.attributes, [](const ExrAttribute& a) { return a.name.size() > 31; });
+    const std::int32_t start[2] = {Imf::MAGIC, Imf::EXR_VERSION | (long_names ? Imf::LONG_NAMES_FLAG : 0)};
+    put(start, sizeof start);
+    header.writeTo(stream);
+    std::uint64_t position = file.position() + sizeof position * static_cast<std::uint64_t>(film.height);
+    for (const ExrLines& band : bands)
+        for (const std::uint32_t size : band.sizes) {
+            put(&position, sizeof position);
+            position += size;
         }
-    });
-    write_planes(file, name, make_header(film, options), planes, options.threads);
-}
-
-void write_float(OutputFile& file, const std::string& name, const Film& film, const ExrOptions& options) {
-    if (count_not_finite(film) > 0) {
-        Film scrubbed = film;
-        scrub(scrubbed);
-        return write_float(file, name, scrubbed, options);
-    }
-    const char* planes[3];
-    for (std::size_t c = 0; c < 3; ++c) planes[c] = reinterpret_cast<const char*>(film.rgb[c].data());
-    write_planes(file, name, make_header(film, options), planes, options.threads);
+    for (const ExrLines& band : bands) put(band.bytes.data(), band.bytes.size());
 }
 
 } // namespace
@@ -128,7 +90,7 @@ void write_float(OutputFile& file, const std::string& name, const Film& film, co
 void write_exr(OutputFile& file, const Film& film, const ExrOptions& options) {
     const std::string name = printable_path(file.path());
     try {
-        (options.float_pixels ? write_float : write_half)(file, name, film, options);
+        write_file_of(file, name, film, options);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {

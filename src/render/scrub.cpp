@@ -21,12 +21,16 @@ std::uint64_t count_not_finite(const Film& film) noexcept {
     return count;
 }
 
+float scrubbed(float value) noexcept {
+    if (is_finite(value)) return value;
+    return std::isnan(value) ? 0.0f : std::copysign(std::numeric_limits<float>::max(), value);
+}
+
 std::uint64_t scrub(Film& film) noexcept {
     const std::uint64_t count = count_not_finite(film);
     if (count == 0) return 0;
     for (auto& plane : film.rgb)
-        for (float& value : plane)
-            if (!is_finite(value)) value = std::isnan(value) ? 0.0f : std::copysign(std::numeric_limits<float>::max(), value);
+        for (float& value : plane) value = scrubbed(value);
     return count;
 }
 

@@ -11,7 +11,10 @@ namespace lanecast {
 /// Values (not pixels) that are NaN or infinite.
 [[nodiscard]] std::uint64_t count_not_finite(const Film& film) noexcept;
 
-/// NaN becomes 0, an infinity the largest float of its sign. Returns how many values were replaced.
+/// NaN becomes 0, an infinity the largest float of its sign.
+[[nodiscard]] float scrubbed(float value) noexcept;
+
+/// The whole film. Returns how many values were replaced.
 std::uint64_t scrub(Film& film) noexcept;
 
 /// Finite values outside the range of half, +-65504: a half file clamps them.

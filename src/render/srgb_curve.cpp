@@ -39,10 +39,10 @@ namespace {
     curve.threshold.back() = std::numeric_limits<float>::infinity();
 
     curve.first_steps.resize(srgb_buckets, static_cast<std::uint16_t>(srgb_steps));
-    std::size_t bucket = 0;
+    int bucket = 0;
     for (std::size_t step = 1; step <= srgb_steps; ++step)
-        for (const std::size_t last = srgb_bucket(curve.threshold[step]); bucket <= last; ++bucket)
-            curve.first_steps[bucket] = static_cast<std::uint16_t>(step - 1);
+        for (const int last = srgb_bucket(curve.threshold[step]); bucket <= last; ++bucket)
+            curve.first_steps[static_cast<std::size_t>(bucket)] = static_cast<std::uint16_t>(step - 1);
     return curve;
 }
 

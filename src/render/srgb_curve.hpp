@@ -23,14 +23,17 @@ struct SrgbCurve {
 
 /// By the root, which is nearly the curve: so narrow in values that each bucket holds one threshold at most, as the test checks.
 inline constexpr int srgb_buckets = 32768;
-[[nodiscard]] inline std::size_t srgb_bucket(float value) noexcept {
-    return static_cast<std::size_t>(static_cast<int>(std::sqrt(value) * static_cast<float>(srgb_buckets - 1)));
+[[nodiscard]] inline int srgb_bucket(float value) noexcept {
+    return static_cast<int>(std::sqrt(value) * static_cast<float>(srgb_buckets - 1));
 }
 
-/// round(srgb_steps * srgb(value)), 0 <= value <= 1.
-[[nodiscard]] inline int steps_of(const SrgbCurve& curve, float value) noexcept {
-    const std::size_t q = curve.first_steps[srgb_bucket(value)];
+/// round(srgb_steps * srgb(value)), 0 <= value <= 1. `bucket`: of this value.
+[[nodiscard]] inline int steps_of(const SrgbCurve& curve, float value, int bucket) noexcept {
+    const std::size_t q = curve.first_steps[static_cast<std::size_t>(bucket)];
     return static_cast<int>(q) + (value >= curve.threshold[q + 1] ? 1 : 0);
+}
+[[nodiscard]] inline int steps_of(const SrgbCurve& curve, float value) noexcept {
+    return steps_of(curve, value, srgb_bucket(value));
 }
 
 } // namespace lanecast

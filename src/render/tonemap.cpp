@@ -61,15 +61,32 @@ void plain_row(const Film& film, std::size_t first, float scale, std::uint8_t* o
     return static_cast<std::uint8_t>((steps + level) / dither_levels);
 }
 
+/// Piece by piece in two passes, of which the first is vectors: roots are most of the work.
 template <Color (*tone)(Color) noexcept>
 void curved_row(const Film& film, std::size_t first, int y, float scale, std::uint8_t* out) noexcept {
+    constexpr int piece = 128;
     const SrgbCurve& curve = srgb_curve();
     const std::uint8_t(&levels)[dither_size] = dither_mask[static_cast<unsigned>(y) % dither_size];
-    const float *red = film.rgb[0].data() + first, *green = film.rgb[1].data() + first, *blue = film.rgb[2].data() + first;
-    for (int x = 0; x < film.width; ++x) {
-        const Color c = tone({exposed(red[x], scale), exposed(green[x], scale), exposed(blue[x], scale)});
-        const int level = levels[static_cast<unsigned>(film.x0 + x) % dither_size]; // one for all three: greys stay grey
-        for (const float value : {c.r, c.g, c.b}) *out++ = dithered(steps_of(curve, std::clamp(value, 0.0f, 1.0f)), level);
+    float light[3][piece];
+    int bucket[3][piece];
+    for (int start = 0; start < film.width; start += piece) {
+        const int count = std::min(piece, film.width - start);
+        const std::size_t at = first + static_cast<std::size_t>(start);
+        const float *red = film.rgb[0].data() + at, *green = film.rgb[1].data() + at, *blue = film.rgb[2].data() + at;
+        for (int i = 0; i < count; ++i) {
+            const Color c = tone({exposed(red[i], scale), exposed(green[i], scale), exposed(blue[i], scale)});
+            light[0][i] = c.r, light[1][i] = c.g, light[2][i] = c.b;
+        }
+        for (int channel = 0; channel < 3; ++channel)
+            for (int i = 0; i < count; ++i) {
+                light[channel][i] = std::clamp(light[channel][i], 0.0f, 1.0f);
+                bucket[channel][i] = srgb_bucket(light[channel][i]);
+            }
+        for (int i = 0; i < count; ++i) {
+            const int level = levels[static_cast<unsigned>(film.x0 + start + i) % dither_size]; // one for all: greys stay grey
+            for (int channel = 0; channel < 3; ++channel)
+                *out++ = dithered(steps_of(curve, light[channel][i], bucket[channel][i]), level);
+        }
     }
 }
 

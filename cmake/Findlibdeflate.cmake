@@ -1,0 +1,17 @@
+# libdeflate::libdeflate. The library brings a package file of its own from 1.16 on only.
+find_package(libdeflate CONFIG QUIET)
+if(TARGET libdeflate::libdeflate_shared)
+  add_library(libdeflate::libdeflate ALIAS libdeflate::libdeflate_shared)
+  set(libdeflate_FOUND TRUE)
+  return()
+endif()
+find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h)
+find_library(LIBDEFLATE_LIBRARY deflate)
+mark_as_advanced(LIBDEFLATE_INCLUDE_DIR LIBDEFLATE_LIBRARY)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(libdeflate REQUIRED_VARS LIBDEFLATE_LIBRARY LIBDEFLATE_INCLUDE_DIR)
+if(libdeflate_FOUND)
+  add_library(libdeflate::libdeflate UNKNOWN IMPORTED)
+  set_target_properties(libdeflate::libdeflate PROPERTIES
+    IMPORTED_LOCATION ${LIBDEFLATE_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${LIBDEFLATE_INCLUDE_DIR})
+endif()
