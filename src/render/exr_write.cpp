@@ -63,7 +63,7 @@ void insert_attribute(Imf::Header& header, const std::string& name, double value
 }
 
 /// A file of one part (OpenEXR File Layout): OpenEXR writes the header; the rest is where each line begins, and the lines.
-/// Its own classes compress by zlib up to 3.1, which takes three to five times as long (docs/output.md).
+/// Its own classes compress by zlib up to 3.1, which takes two to four times as long (docs/output.md).
 void write_file_of(OutputFile& file, const std::string& name, const Film& film, const ExrOptions& options) {
     const Imf::Header header = make_header(film, options);
     header.sanityCheck();
