@@ -144,8 +144,7 @@ constexpr double widest = 0.04; ///< of the b
     const int radius = static_cast<int>(std::ceil(3 * sigma));
     const auto gauss = [&](double i) { return std::exp(-i * i / (2 * sigma * sigma)); };
     Taps smooth = make_taps(radius, gauss);
-    Taps derive = make_taps(
-        radius, [&](double i) { return (order == 1 ? -i : i * i / (sigma * sigma) - 1) * gauss(i); });
+    Taps derive = make_taps(radius, [&](double i) { return (order == 1 ? -i : i * i / (sigma * sigma) - 1) * gauss(i); });
     normalise_by_sign(smooth);
     normalise_by_sign(derive);
     const Plane x = filtered(lightness, width, height, derive, smooth), y = filtered(lightness, width, height, smooth, derive);
@@ -171,8 +170,8 @@ SeenPicture see(const Film& film, PixelValues values, double pixels_per_degree) 
     const std::size_t count = film.rgb[0].size();
     Plane channels[3] = {Plane(count), Plane(count), Plane(count)}, lightness(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Colour c = opponent(
-            {linear_of(film.rgb[0][i], values), linear_of(film.rgb[1][i], values), linear_of(film.rgb[2][i], values)});
+        const Colour c =
+            opponent({linear_of(film.rgb[0][i], values), linear_of(film.rgb[1][i], values), linear_of(film.rgb[2][i], values)});
         for (std::size_t k = 0; k < 3; ++k) channels[k][i] = static_cast<float>(c[k]);
         lightness[i] = static_cast<float>((c[0] + 16) / 116);
     }
@@ -183,9 +182,8 @@ SeenPicture see(const Film& film, PixelValues values, double pixels_per_degree) 
         channels[k] = by_contrast(channels[k], film.width, film.height, sensitivities[k], pixels_per_degree);
     for (Plane& plane : seen.lab) plane.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Colour lab = adjusted_lab(rgb_from_opponent({static_cast<double>(channels[0][i]),
-                                                           static_cast<double>(channels[1][i]),
-                                                           static_cast<double>(channels[2][i])}));
+        const Colour lab = adjusted_lab(rgb_from_opponent(
+            {static_cast<double>(channels[0][i]), static_cast<double>(channels[1][i]), static_cast<double>(channels[2][i])}));
         for (std::size_t k = 0; k < 3; ++k) seen.lab[k][i] = static_cast<float>(lab[k]);
     }
     return seen;
