@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 namespace lanecast {
 namespace {
@@ -36,7 +37,7 @@ namespace {
     return static_cast<std::size_t>(y - film.y0) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x - film.x0);
 }
 
-[[nodiscard]] bool same_bits(const std::vector<float>& a, const std::vector<float>& b) noexcept {
+[[nodiscard]] bool same_bits(std::span<const float> a, std::span<const float> b) noexcept {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](float x, float y) { return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y); });
 }

@@ -62,6 +62,7 @@ template <class Pixel>
     std::vector<unsigned char> split(size), predicted(size), compressed(size);
     Deflater deflater(level);
     ExrLines lines;
+    lines.bytes.reserve((last - first) * (8 + size));
     for (std::size_t y = first; y < last; ++y) {
         line_of(film, y, line.data());
         predict(plain, size, split.data(), predicted.data());

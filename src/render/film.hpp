@@ -2,10 +2,10 @@
 // The picture: linear Rec.709 radiance, three planes, the part of the image that was rendered.
 
 #include "render/kernel_table.hpp"
+#include "scene/zero_pages.hpp"
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 namespace lanecast {
 
@@ -13,10 +13,10 @@ namespace lanecast {
 struct Film {
     int image_width = 0, image_height = 0;
     int x0 = 0, y0 = 0, width = 0, height = 0;
-    std::array<std::vector<float>, 3> rgb; ///< each width * height, row by row from the top
+    std::array<ZeroVector<float>, 3> rgb; ///< each width * height, row by row from the top
 };
 
-/// Black; throws std::bad_alloc.
+/// Black, of memory that is not touched yet; throws std::bad_alloc.
 [[nodiscard]] Film make_film(int image_width, int image_height, const Tile& crop);
 [[nodiscard]] FilmView view(Film& film) noexcept;
 

@@ -19,7 +19,7 @@ struct PngText {
 /// Interleaved 8-bit RGB, row by row from the top.
 struct Picture8 {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> rgb; ///< 3 * width * height
+    ZeroVector<std::uint8_t> rgb; ///< 3 * width * height
     std::vector<PngText> texts{};
 };
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,19 +21,13 @@ void write_to_file(png_structp png, png_bytep data, png_size_t size) {
 
 void flush_nothing(png_structp) {}
 
-struct Stream {
-    std::unique_ptr<unsigned char[]> bytes;
-    std::size_t size = 0;
-};
-
 /// What IDAT chunks hold: the rows, each byte as its difference from the pixel to the left (filter SUB), as one zlib stream.
 /// Measured: docs/output.md.
-[[nodiscard]] Stream compressed_rows(const Picture8& picture) {
+[[nodiscard]] ZeroVector<unsigned char> compressed_rows(const Picture8& picture) {
     constexpr std::size_t channels = 3;
     const std::size_t row = channels * static_cast<std::size_t>(picture.width), rows = static_cast<std::size_t>(picture.height);
-    const std::size_t size = (row + 1) * rows;
-    const auto filtered = std::make_unique_for_overwrite<unsigned char[]>(size);
-    unsigned char* to = filtered.get();
+    ZeroVector<unsigned char> filtered((row + 1) * rows);
+    unsigned char* to = filtered.data();
     for (std::size_t y = 0; y < rows; ++y, to += row + 1) {
         const std::uint8_t* const from = picture.rgb.data() + row * y;
         to[0] = PNG_FILTER_VALUE_SUB;
@@ -42,9 +35,8 @@ struct Stream {
         for (std::size_t i = channels; i < row; ++i) to[1 + i] = static_cast<unsigned char>(from[i] - from[i - channels]);
     }
     Deflater deflater(1);
-    const std::size_t room = deflater.bound(size);
-    Stream stream{std::make_unique_for_overwrite<unsigned char[]>(room)};
-    stream.size = deflater.compress(filtered.get(), size, stream.bytes.get(), room);
+    ZeroVector<unsigned char> stream(deflater.bound(filtered.size()));
+    stream.resize(deflater.compress(filtered.data(), filtered.size(), stream.data(), stream.size()));
     return stream;
 }
 
@@ -54,7 +46,7 @@ void write_chunk(png_structp png, const char* name, const unsigned char* data, s
 
 /// libpng leaves by longjmp, so this frame and those below it hold nothing that needs a destructor.
 [[nodiscard]] bool encode(png_structp png, png_infop info, OutputFile& file, const Picture8& picture,
-                          const std::vector<png_text>& texts, const Stream& rows) {
+                          const std::vector<png_text>& texts, const ZeroVector<unsigned char>& rows) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &file, write_to_file, flush_nothing);
     png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
@@ -64,8 +56,8 @@ void write_chunk(png_structp png, const char* name, const unsigned char* data, s
     if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
     png_write_info(png, info);
     constexpr std::size_t most = 1 << 16; // readers that hold a chunk need no more memory than this
-    for (std::size_t at = 0; at < rows.size; at += most)
-        write_chunk(png, "IDAT", rows.bytes.get() + at, std::min(most, rows.size - at));
+    for (std::size_t at = 0; at < rows.size(); at += most)
+        write_chunk(png, "IDAT", rows.data() + at, std::min(most, rows.size() - at));
     write_chunk(png, "IEND", nullptr, 0); // png_write_end wants rows that libpng compressed
     return true;
 }
@@ -82,7 +74,7 @@ void write_png(OutputFile& file, const Picture8& picture) {
         chunk.text_length = text.text.size();
         texts.push_back(chunk);
     }
-    const Stream rows = compressed_rows(picture);
+    const ZeroVector<unsigned char> rows = compressed_rows(picture);
     PngReason reason;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &reason, keep_png_reason, ignore_png_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;

@@ -109,7 +109,7 @@ std::optional<View> view_from_name(std::string_view name) noexcept {
 Picture8 tonemap(const Film& film, View view, double exposure, int threads) {
     const float scale = static_cast<float>(exp2_of(std::clamp(exposure, -100.0, 100.0)));
     const std::size_t width = static_cast<std::size_t>(film.width), height = static_cast<std::size_t>(film.height);
-    Picture8 picture{film.width, film.height, std::vector<std::uint8_t>(3 * width * height)};
+    Picture8 picture{film.width, film.height, ZeroVector<std::uint8_t>(3 * width * height)};
     for_each_row_band(film.height, threads, [&](int first_row, int last_row) {
         for (int row = first_row; row < last_row; ++row) {
             const std::size_t first = static_cast<std::size_t>(row) * width;

@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 using namespace lanecast;
 
 TEST_CASE("a film holds the crop, black") {
@@ -16,4 +20,18 @@ TEST_CASE("a film holds the crop, black") {
     CHECK(film_view.x0 == 2);
     CHECK(film_view.y0 == 3);
     CHECK(film_view.rgb[1] == film.rgb[1].data());
+}
+
+TEST_CASE("a film is black, whatever its memory was before") {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> side(1, 400);
+    for (int draw = 0; draw < 300; ++draw) {
+        Film film = make_film(400, 400, {0, 0, side(random), side(random)});
+        float largest = 0;
+        for (auto& plane : film.rgb) {
+            for (const float value : plane) largest = std::max(largest, std::abs(value));
+            std::fill(plane.begin(), plane.end(), 1.0f);
+        }
+        CHECK(largest == 0.0f);
+    }
 }

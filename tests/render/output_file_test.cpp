@@ -41,7 +41,7 @@ Film noise(int width, int height) {
 }
 
 Picture8 noise8(int width, int height) {
-    Picture8 picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height))};
+    Picture8 picture{width, height, ZeroVector<std::uint8_t>(static_cast<std::size_t>(3 * width * height))};
     std::mt19937 random(8);
     for (auto& code : picture.rgb) code = static_cast<std::uint8_t>(random());
     return picture;

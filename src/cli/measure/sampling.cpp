@@ -69,7 +69,7 @@ struct Look {
 /// Root of the mean square of differences between neighbours of the pixels that were rendered.
 [[nodiscard]] double contrast(const Film& film, int stride) {
     double squares = 0;
-    for (const std::vector<float>& plane : film.rgb)
+    for (const auto& plane : film.rgb)
         for (int y = 0; y < film.height; y += stride)
             for (int x = 0; x < film.width; x += stride) {
                 const auto at = [&](int u, int v) { return double{plane[static_cast<std::size_t>(v) * film.width + u]}; };
