@@ -12,7 +12,7 @@ namespace lanecast {
 inline constexpr int srgb_steps_per_code = 64;
 inline constexpr int srgb_steps = 255 * srgb_steps_per_code;
 
-/// Look up with steps_of(curve, value).
+/// Look up with steps_of.
 struct SrgbCurve {
     std::vector<float> threshold;           ///< [q]: the smallest float that maps to q; q = 0 to srgb_steps, then infinity
     std::vector<std::uint16_t> first_steps; ///< [bucket]: how many thresholds, but for that of 0, lie in lower buckets
@@ -31,9 +31,6 @@ inline constexpr int srgb_buckets = 32768;
 [[nodiscard]] inline int steps_of(const SrgbCurve& curve, float value, int bucket) noexcept {
     const std::size_t q = curve.first_steps[static_cast<std::size_t>(bucket)];
     return static_cast<int>(q) + (value >= curve.threshold[q + 1] ? 1 : 0);
-}
-[[nodiscard]] inline int steps_of(const SrgbCurve& curve, float value) noexcept {
-    return steps_of(curve, value, srgb_bucket(value));
 }
 
 } // namespace lanecast

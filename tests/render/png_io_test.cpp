@@ -84,9 +84,9 @@ TEST_CASE("a picture comes back code for code, through libpng's reader and ours"
         CHECK(image.format == PNG_FORMAT_RGB);
         REQUIRE(image.width == static_cast<unsigned>(width));
         REQUIRE(image.height == static_cast<unsigned>(height));
-        std::vector<std::uint8_t> codes(picture.rgb.size());
+        ZeroVector<std::uint8_t> codes(picture.rgb.size());
         REQUIRE(png_image_finish_read(&image, nullptr, codes.data(), 0, nullptr));
-        CHECK(std::equal(codes.begin(), codes.end(), picture.rgb.begin(), picture.rgb.end()));
+        CHECK(codes == picture.rgb);
 
         const Film film = read_png(path);
         CHECK(film.image_width == width);

@@ -57,6 +57,8 @@ std::array<double, 3> mean_codes(View view, float r, float g, float b, double ex
     return mean;
 }
 
+int steps_of(const SrgbCurve& curve, float value) { return lanecast::steps_of(curve, value, srgb_bucket(value)); }
+
 } // namespace
 
 TEST_CASE("the curve is sRGB's: thresholds where double says, one per bucket, increasing") {
