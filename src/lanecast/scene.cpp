@@ -8,20 +8,12 @@
 #include "scene/transform.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <vector>
 
 namespace lanecast {
-
-struct Scene::Data {
-    SceneArrays arrays;
-    SceneView scene{};
-    StreamUnits units{};
-    std::vector<StreamObject> objects;
-    const KernelTable* kernels = nullptr;
-    double build_seconds = 0;
-};
 
 namespace {
 
@@ -90,7 +82,36 @@ T* moved(T* p, std::size_t begin) {
     return p != nullptr ? p + begin : nullptr;
 }
 
+/// No two scenes of a process share one.
+std::uint64_t next_scene_id() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+/// What hid a light from the rays of one call is likely to hide it from those of the next, too: each thread keeps it, for the
+/// scene that it asked last. Measured: docs/performance.md.
+struct KeptOccluders {
+    std::uint64_t scene_id = 0;
+    Occluders occluders{};
+};
+thread_local constinit KeptOccluders kept_occluders;
+
+Occluders& occluders_of(std::uint64_t scene_id) {
+    if (kept_occluders.scene_id != scene_id) kept_occluders = {scene_id, {}};
+    return kept_occluders.occluders;
+}
+
 } // namespace
+
+struct Scene::Data {
+    const std::uint64_t id = next_scene_id();
+    SceneArrays arrays;
+    SceneView scene{};
+    StreamUnits units{};
+    std::vector<StreamObject> objects;
+    const KernelTable* kernels = nullptr;
+    double build_seconds = 0;
+};
 
 Scene::Scene(std::span<const MeshArrays> meshes, const BuildOptions& options) {
     const auto begin = Clock::now();
@@ -123,6 +144,7 @@ void Scene::closest_hit(const RayArrays& rays, const HitArrays& hits) const noex
 void Scene::any_hit(const RayArrays& rays, std::uint8_t* occluded) const noexcept {
     for_each_piece(rays, data_->units, [&](RayStream& stream, std::size_t begin) {
         stream.occluded = occluded + begin;
+        stream.occluders = &occluders_of(data_->id);
         data_->kernels->any_hit(data_->scene, stream);
     });
 }

@@ -114,6 +114,14 @@ struct StreamObject {
     std::uint32_t mirrored;       ///< 1: flattening exchanged the second and third vertex of its triangles
 };
 
+/// Leaves that lately hid a light from many rays, tried first by the packets that follow: any hit will do, so answers are the
+/// same.
+inline constexpr std::uint32_t occluder_capacity = 4;
+struct Occluders {
+    std::uint32_t count;
+    std::uint64_t leaf[occluder_capacity]; ///< child words; the latest first
+};
+
 /// Rays in structure-of-arrays form, each pointer to `count` elements of any alignment. t may be tmax itself; otherwise what is
 /// written overlaps nothing that is read.
 struct RayStream {
@@ -130,6 +138,7 @@ struct RayStream {
 
     const StreamUnits* units; ///< of org, tmin, tmax and t; null: normalised
     std::uint8_t* occluded;   ///< out, any_hit: 1 for a hit, 0 for a miss; may be null
+    Occluders* occluders;     ///< in and out, any_hit: of this scene, from the streams before; may be null
 
     // Out, closest_hit: each may be null.
     const StreamObject* objects; ///< by object; null: there is only one, not mirrored

@@ -4,11 +4,13 @@
 #include "render/dispatch.hpp"
 
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
 
 #include <doctest/doctest.h>
+#include <glm/vec2.hpp>
 
 using namespace lanecast;
 using namespace lanecast::test;
@@ -349,6 +351,46 @@ TEST_CASE("shadows of coherent rays do not depend on what hid the light before")
             CHECK(wrong == 0);
             CHECK(dark > rays.size() / 8);
             CHECK(dark < rays.size());
+        }
+    }
+}
+
+TEST_CASE("a thread's answers do not depend on the scenes and lights that it asked about before") {
+    // Roofs at one place in the tree and another, so that what hid the light in one scene is something else in the next, or
+    // nothing; scenes come and go at the same addresses, and calls are short enough to begin with what the last one left.
+    Random random(28);
+    for (int round = 0; round < rounds; ++round) {
+        std::unique_ptr<Scene> scene;
+        glm::dvec2 roof_lo(0), roof_hi(0);
+        for (int call = 0; call < 24; ++call) {
+            if (call % 3 == 0) {
+                TestMesh mesh = random_mesh(random, random.below(2000), 0.4, {0, -3, 0});
+                roof_lo = {random.uniform(-2, 0), random.uniform(-2, 0)};
+                roof_hi = {random.uniform(0.5, 2), random.uniform(0.5, 2)};
+                for (const glm::dvec2& p :
+                     {roof_lo, glm::dvec2(roof_hi.x, roof_lo.y), roof_hi, roof_lo, roof_hi, glm::dvec2(roof_lo.x, roof_hi.y)}) {
+                    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size() / mesh.floats));
+                    for (const double coordinate : {p.x, 1.0, p.y}) mesh.positions.push_back(static_cast<float>(coordinate));
+                    mesh.positions.resize(mesh.positions.size() + mesh.floats - 3);
+                }
+                scene.reset();
+                scene = std::make_unique<Scene>(mesh.arrays(), BuildOptions{.threads = 1});
+            }
+            TestRays rays(static_cast<std::size_t>(64 + random.below(1000)));
+            const glm::dvec3 light(random.uniform(-0.5, 0.5), 1, random.uniform(-0.5, 0.5));
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                rays.set(i, {random.uniform(-2, 2), random.chance(0.1) ? 2 : -1, random.uniform(-2, 2)}, light);
+            std::vector<std::uint8_t> occluded(rays.size(), 9);
+            scene->any_hit(rays.arrays(), occluded.data());
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const glm::dvec3 at = rays.origin(i) + 2.0 * light; // where the ray meets the roof's plane
+                const double inside = std::min({at.x - roof_lo.x, roof_hi.x - at.x, at.z - roof_lo.y, roof_hi.y - at.z});
+                const bool hidden = rays.origin(i).y < 1 && inside > 0;
+                wrong += std::abs(inside) < 1e-5 || (occluded[i] == 1) == hidden ? 0 : 1;
+            }
+            CAPTURE(call);
+            REQUIRE(wrong == 0);
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Rays in memory: the arrays that a batch of rays lives in, and the allocator that lays them out in the scratch block.
 
+#include "render/kernel_table.hpp"
 #include "simd/vec3.hpp"
 
 #include <cstdint>
@@ -45,26 +46,18 @@ LANECAST_INLINE I source_inward(I slot) {
 template <class S>
 inline constexpr S no_limit = std::numeric_limits<S>::max();
 
-/// Leaves that lately hid a light from many rays, tried first by the packets that follow: any hit will do, so answers are the
-/// same.
-struct Occluders {
-    static constexpr std::uint32_t capacity = 4;
-    std::uint32_t count = 0;
-    std::uint64_t leaf[capacity]; ///< child words; the latest first
-
-    void remember(std::uint64_t child) {
-        std::uint32_t place = 0;
-        while (place < count && leaf[place] != child) ++place;
-        if (place == count && count < capacity) ++count;
-        if (place == capacity) --place;
-        for (; place > 0; --place) leaf[place] = leaf[place - 1];
-        leaf[0] = child;
-    }
-    void forget(std::uint32_t place) {
-        --count;
-        for (; place < count; ++place) leaf[place] = leaf[place + 1];
-    }
-};
+inline void remember(Occluders& occluders, std::uint64_t child) {
+    std::uint32_t place = 0;
+    while (place < occluders.count && occluders.leaf[place] != child) ++place;
+    if (place == occluders.count && occluders.count < occluder_capacity) ++occluders.count;
+    if (place == occluder_capacity) --place;
+    for (; place > 0; --place) occluders.leaf[place] = occluders.leaf[place - 1];
+    occluders.leaf[0] = child;
+}
+inline void forget(Occluders& occluders, std::uint32_t place) {
+    --occluders.count;
+    for (; place < occluders.count; ++place) occluders.leaf[place] = occluders.leaf[place + 1];
+}
 
 /// Up to `capacity` rays, dense, and what tracing them gave. Arrays have a vector of slack.
 template <FloatBatch F>

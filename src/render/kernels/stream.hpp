@@ -142,8 +142,8 @@ void trace_stream(const SceneView& scene, const RayStream& stream) {
     TraceScratch<F> scratch;
     RayKindStats stats{};
     RayBatch<F> rays = batch.rays(stream);
-    Occluders occluders; // should the rays go to one light; otherwise it is left empty or soon forgotten
-    rays.occluders = &occluders;
+    Occluders first{}; // should the rays go to one light; otherwise it is left empty or soon forgotten
+    rays.occluders = stream.occluders != nullptr ? stream.occluders : &first;
     const std::uint32_t chunk = stream.coherent != 0 ? coherent_chunk : max_batch_rays;
     const std::uint32_t filled = stream.count < chunk ? stream.count : chunk;
     for (std::uint32_t i = 0; i < filled + static_cast<std::uint32_t>(width<F>); ++i) rays.source[i] = no_source;

@@ -127,7 +127,7 @@ void try_occluders(const SceneView& scene, Packet<F>& packet, Occluders& occlude
         const std::uint32_t before = open_rays;
         open_rays = count_open(packet, open);
         if ((before - open_rays) * 16 < packet.count)
-            occluders.forget(k);
+            forget(occluders, k);
         else
             ++k;
     }
@@ -141,7 +141,7 @@ LANECAST_INLINE void note_occluder(const Packet<F>& packet, Occluders& occluders
     if (packet.count < 32 || count_bits(changed) * 4 < static_cast<std::uint32_t>(packet.vectors)) return;
     const std::uint32_t before = open_rays;
     open_rays = count_open(packet, packet.all_vectors());
-    if ((before - open_rays) * 4 >= packet.count) occluders.remember(leaf);
+    if ((before - open_rays) * 4 >= packet.count) remember(occluders, leaf);
 }
 
 /// Every bounded primitive, in order of nearness as far as the boxes tell. Returns the vectors of the last leaf tested.
